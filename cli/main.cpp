@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/terminal/file_advice.h"
 #include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
@@ -46,14 +47,19 @@ void clean_up_on_signals() {
   }
 }
 
-/// What CLI11 says of the arguments, in which names of files may stand; its exit code.
-int explain_usage(const CLI::App& app, const CLI::Error& error) {
-  std::ostringstream out, err;
-  const int code = app.exit(error, out, err);
-  print_out(out.str());
-  // Even nothing on cerr flushes cout, whose errno would be lost.
-  if (!err.str().empty()) std::cerr << oriel::printable_lines(err.str());
-  return code;
+/// Prints the help that was asked for; or says what is wrong with the arguments, in which names of
+/// files may stand. True if it was help.
+bool explain_usage(const CLI::App& app, const CLI::Error& error) {
+  if (error.get_exit_code() == 0) {
+    std::ostringstream out;
+    app.exit(error, out, out);
+    print_out(out.str());
+    return true;
+  }
+  std::string sentence = usage_advice(app);
+  if (sentence.empty()) sentence = usage_sentence(app, error);
+  std::cerr << oriel::printable_lines(sentence + "\n" + pointer_to_help(app) + "\n");
+  return false;
 }
 
 int exit_with(ExitCode code) { return static_cast<int>(code); }
@@ -106,12 +112,7 @@ int run(int argc, char** argv) {
     finish_stdout();
     return exit_with(code);
   } catch (const CLI::ParseError& error) {
-    const std::string advice = error.get_exit_code() == 0 ? "" : usage_advice(app);
-    if (!advice.empty()) {
-      std::cerr << advice << "\nRun with --help for more information.\n";
-      return exit_with(ExitCode::usage);
-    }
-    const bool is_help = explain_usage(app, error) == 0;
+    const bool is_help = explain_usage(app, error);
     finish_stdout();
     return exit_with(is_help ? ExitCode::clean : ExitCode::usage);
   }
@@ -123,10 +124,10 @@ int guarded_main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const oriel::InputError& error) {
-    report.add(error.issue());
+    report.add(with_file_advice(error.issue()));
     return exit_with(ExitCode::input);
   } catch (const oriel::OutputError& error) {
-    report.add(error.issue());
+    report.add(with_file_advice(error.issue()));
     return exit_with(ExitCode::output);
   } catch (const std::bad_alloc&) {
     throw;

@@ -1,5 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/completion/scripts.h"
+#include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 
 #include <memory>
@@ -17,7 +18,7 @@ void add_completion(CLI::App& app, Action& action) {
   auto shell = std::make_shared<std::string>();
   command->add_option("shell", *shell, "The shell")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->check(one_of({"bash", "zsh", "fish"}));
   command->footer("Example:\n  source <(oriel completion bash)");
   command->callback([&app, &action, shell] {
     action = [&app, shell] {

@@ -1,11 +1,13 @@
 #include "cli/batch/batch_command.h"
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/change_report.h"
 #include "cli/output/label_outputs.h"
 #include "cli/output/series_output.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
 #include "oriel/generalise.h"
 #include "oriel/rules.h"
 
@@ -64,13 +66,18 @@ std::vector<std::string> profile_names(const TargetArguments& arguments) {
   std::vector<std::string> sorted = lods;
   std::ranges::sort(sorted);
   if (std::ranges::adjacent_find(sorted) != sorted.end())
-    throw CLI::ValidationError("--to-lod", "a level of detail stands twice");
+    throw CLI::ValidationError("--to-lod",
+                               "a level of detail stands twice; name each of them once");
   std::vector<std::string> names;
-  for (const std::string& lod : lods) {
-    check_lod("--to-lod", lod);
+  for (const std::string& lod : lods)
     names.push_back((profile.empty() ? "lod" : profile) + ":" + lod);
-  }
   return names;
+}
+
+/// A level that the profile does not have is wrong usage: the profile itself is right.
+void check_level(const std::string& option, const std::vector<Issue>& issues) {
+  for (const Issue& issue : issues)
+    if (issue.code == Code::R275) refuse_usage(option, issue.code, issue.sentence);
 }
 
 /// N of "1:N", "1 : N" or "N", at least 1; else `option` is refused with E125.
@@ -96,14 +103,16 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
   const std::vector<std::string> names = profile_names(arguments);
   if (names.empty() && arguments.edge_min_m > 0)
     throw CLI::ValidationError("--edge-min", "works only with --profile or --to-lod");
+  const std::string option = arguments.lods.empty() ? "--profile" : "--to-lod";
   for (const std::string& name : names) {
     auto loaded = load_profile_file(name);
+    check_level(option, loaded.issues);
     report.add(loaded.issues);
     if (!loaded.value) return std::nullopt;
     report.add(check_profile(*loaded.value, rules));
     if (arguments.edge_min_m > 0)
       loaded.value = with_edge_min(std::move(*loaded.value), arguments.edge_min_m);
-    if (targets.has_lods()) check_lod("--profile", loaded.value->level);
+    if (targets.has_lods()) check_lod(option, loaded.value->level);
     targets.profiles.push_back(std::move(*loaded.value));
   }
   return targets;
@@ -260,7 +269,8 @@ std::vector<double> scales_of(const std::vector<std::string>& texts) {
   std::ranges::sort(scales);
   const auto twin = std::ranges::adjacent_find(scales);
   if (twin != scales.end())
-    refuse_usage("--series", Code::E125, fmt::format("the scale 1:{} stands twice", *twin));
+    refuse_usage("--series", Code::E125,
+                 fmt::format("the scale 1:{} stands twice; name each scale once", *twin));
   return scales;
 }
 
@@ -275,6 +285,7 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
   if (arguments.target.profile.empty())
     return write_series(arguments, scales, std::nullopt, rules, report);
   const auto profile = load_profile_file(arguments.target.profile);
+  check_level("--profile", profile.issues);
   report.add(profile.issues);
   if (!profile.value) return ExitCode::rules;
   report.add(check_profile(*profile.value, rules));
@@ -287,7 +298,7 @@ void check_source(const GeneraliseArguments& arguments) {
     if (!arguments.inputs.empty())
       throw CLI::ValidationError("--at", "has no input but the series that --from names");
     if (arguments.from.empty())
-      throw CLI::ValidationError("--at", "--from says the NAME of the series");
+      throw CLI::ValidationError("--at", "needs --from NAME, the -o of the --series that was made");
     if (!arguments.selection.is_all())
       throw CLI::ValidationError(
           "--at", "writes the whole level, without --id, --bbox, --cotype, --random and --exclude");
@@ -305,8 +316,9 @@ ExitCode work(GeneraliseArguments& arguments) {
       throw CLI::RequiredError("--output");
     arguments.out = "-";
   }
-  Report report(arguments.is_verbose);
   check_source(arguments);
+  Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   if (!arguments.at.empty())
     return write_level_at(arguments.from, denominator_of(arguments.at, "--at"), arguments.out,
                           report);
@@ -368,7 +380,7 @@ void add_generalise(CLI::App& app, Action& action) {
   command
       ->add_option("--edge-min", arguments->target.edge_min_m,
                    "Least length of an edge and width of a gap, in m, instead of the profile's")
-      ->check(CLI::Range(kLeastEdge_m, kMostEdge_m));
+      ->check(number_in(kLeastEdge_m, kMostEdge_m));
   command->footer(
       "Example:\n  oriel generalise house.city.json --scale 1:20000 -o house-1-20000.city.json");
   command->callback([arguments, &action, target, scale] {

@@ -4,6 +4,7 @@
 #include "cli/output/named_files.h"
 #include "cli/output/sarif.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
@@ -159,12 +160,12 @@ void add_test(CLI::App& rules, Action& action) {
   command
       ->add_option("--min-coverage", arguments->min_coverage,
                    "Fail if fewer than this per cent of the rules hold in any test")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(number_in(0.0, 100.0));
   command
       ->add_option(
           "--min-conditions", arguments->min_conditions,
           "Fail if fewer than this per cent of the conditions both hold and fail in the tests")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(number_in(0.0, 100.0));
   command->add_flag("--with-base", arguments->is_with_base,
                     "Also count the rules of the packs that a pack extends");
   command->footer("Example:\n  oriel rules test my_rules.yaml --min-coverage 100");

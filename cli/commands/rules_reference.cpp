@@ -163,8 +163,10 @@ std::string in_capitals(std::string text) {
 void report_unknown_code(const std::string& text) {
   std::vector<std::string> all;
   for (const Code code : all_codes()) all.push_back(to_string(code));
-  run_log().write(LogLevel::error, fmt::format("there is no code '{}'{}", printable(text),
-                                               rules::did_you_mean(text, all)));
+  const std::string near = rules::did_you_mean(text, all);
+  run_log().write(LogLevel::error,
+                  fmt::format("there is no code '{}'{}", printable(text),
+                              near.empty() ? "; codes are such as E101, G404 and R204" : near));
 }
 
 ExitCode explain_codes(const RulesExplainArguments& arguments) {

@@ -1,5 +1,6 @@
 #include "cli/terminal/logging.h"
 
+#include "cli/terminal/option_values.h"
 #include "kernel/base/printable.h"
 
 #include <chrono>
@@ -134,7 +135,7 @@ void add_log_arguments(CLI::App& command, LogOptions& options) {
   command
       .add_option("--log-level", options.level,
                   "What to log on stderr (default: findings and summaries)")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->check(one_of({"trace", "debug", "info", "warn", "error", "off"}))
       ->group("Logging");
   command.add_flag("--log-json", options.is_json, "Log one JSON object per line")->group("Logging");
 }

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -128,11 +130,121 @@ std::string unknown_option(const CLI::App& command, const std::string& argument)
                      did_you_mean(meant(name, option_names(command), kOptionSynonyms)));
 }
 
+/// CLI11 has the last of them first.
+std::string too_many_arguments(const CLI::App& command, std::vector<std::string> rest) {
+  std::ranges::reverse(rest);
+  return fmt::format("'{}' takes fewer arguments: '{}' {} too many", full_name(command),
+                     printable(fmt::format("{}", fmt::join(rest, "', '"))),
+                     rest.size() == 1 ? "is" : "are");
+}
+
+/// The option of that name, of the command or of its groups; or null.
+const CLI::Option* find_option(const CLI::App& command, const std::string& name) {
+  if (const CLI::Option* option = command.get_option_no_throw(name)) return option;
+  for (const CLI::App* group : command.get_subcommands(is_group))
+    if (const CLI::Option* option = find_option(*group, name)) return option;
+  return nullptr;
+}
+
+/// ": Where to write (default: stdout)"; nothing for what is no option of the command.
+std::string meaning_of(const CLI::App& command, const std::string& name) {
+  const CLI::Option* option = find_option(command, name);
+  return option == nullptr ? "" : ": " + option->get_description();
+}
+
+/// "--scale, --to-lod" of "... [--scale,--to-lod] ..."; nothing without brackets.
+std::string listed_options(std::string text) {
+  const std::size_t open = text.find('['), close = text.rfind(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return {};
+  text = text.substr(open + 1, close - open - 1);
+  for (std::size_t at = 0; (at = text.find(',', at)) != std::string::npos; at += 2)
+    text.replace(at, 1, ", ");
+  return text;
+}
+
+/// The first call of the command in its help: "\nExample: oriel label house.city.json -o
+/// out.city.json".
+std::string example_of(const CLI::App& command) {
+  const std::string footer = command.get_footer();
+  const std::size_t begin = footer.find(full_name(command) + " ");
+  if (begin == std::string::npos) return {};
+  return "\nExample: " + footer.substr(begin, footer.find('\n', begin) - begin);
+}
+
+std::string what_is_missing(const CLI::App& command, const std::string& text) {
+  const std::string options = listed_options(text);
+  if (!options.empty()) return fmt::format("one of {} is required{}", options, example_of(command));
+  if (const auto commands = command_names(command); text.starts_with("A subcommand"))
+    return fmt::format("{}: {}", text, fmt::join(commands, ", "));
+  constexpr std::string_view kRequired = " is required";
+  const std::string name = text.substr(0, text.rfind(kRequired));
+  return text + meaning_of(command, name) + example_of(command);
+}
+
+/// Of "--bbox: At least 4 required but received 3" and the like.
+std::string wrong_number_of_values(const CLI::App& command, const std::string& text) {
+  const std::string name = text.substr(0, text.find(':'));
+  const CLI::Option* option = find_option(command, name);
+  if (option == nullptr) return text;
+  const std::string type = option->get_type_name();
+  return fmt::format(
+      "{} needs {}{}", name,
+      type.find(',') == std::string::npos || type.find('{') != std::string::npos ? "a value" : type,
+      meaning_of(command, name));
+}
+
+/// Of "--resume requires --status" and "--repeat excludes --resume": the two options.
+std::pair<std::string, std::string> two_options(const std::string& text, std::string_view verb) {
+  const std::size_t at = text.find(verb);
+  return {text.substr(0, at), text.substr(std::min(text.size(), at + verb.size()))};
+}
+
+/// Of "Could not convert: --seed = x": CLI11 names a flag with a value so, too.
+std::string wrong_kind_of_value(const CLI::App& command, std::string text) {
+  constexpr std::string_view kBegin = "Could not convert: ";
+  if (!text.starts_with(kBegin)) return text;
+  text.erase(0, kBegin.size());
+  const auto [name, value] = two_options(text, " = ");
+  const CLI::Option* option = find_option(command, name);
+  const bool is_flag = option != nullptr && option->get_type_size_max() == 0;
+  return is_flag
+             ? fmt::format("{} takes no value; '{}' was given", name, value)
+             : fmt::format("{}: '{}' is not a number{}", name, value, meaning_of(command, name));
+}
+
 }  // namespace
+
+std::string usage_sentence(const CLI::App& app, const CLI::Error& error) {
+  const CLI::App& command = reached(app);
+  const std::string text = error.what();
+  if (error.get_name() == "RequiredError") {
+    const bool is_excess = text.starts_with("Requires at most 1 ");
+    if (is_excess) return fmt::format("only one of {} may be given", listed_options(text));
+    return what_is_missing(command, text);
+  }
+  if (error.get_name() == "ArgumentMismatch") return wrong_number_of_values(command, text);
+  if (error.get_name() == "ConversionError") return wrong_kind_of_value(command, text);
+  if (error.get_name() == "RequiresError") {
+    const auto [option, other] = two_options(text, " requires ");
+    return fmt::format("{} needs {} as well{}", option, other, meaning_of(command, other));
+  }
+  if (error.get_name() == "ExcludesError") {
+    const auto [option, other] = two_options(text, " excludes ");
+    return fmt::format("{} and {} do not work together: leave one of them out", option, other);
+  }
+  return text;
+}
+
+std::string pointer_to_help(const CLI::App& app) {
+  return fmt::format("Run '{} --help' for more information.", full_name(reached(app)));
+}
 
 std::string usage_advice(const CLI::App& app) {
   const CLI::App& command = reached(app);
   const std::vector<std::string> rest = app.remaining(true);
+  if (!rest.empty() && rest[0] == "help" && &command != &app)
+    return fmt::format("'help' is no command of oriel; did you mean '{} --help'?",
+                       full_name(command));
   const auto option = std::ranges::find_if(rest, [](const std::string& argument) {
     return argument.size() > 1 && argument.front() == '-' && argument != "--";
   });
@@ -141,7 +253,8 @@ std::string usage_advice(const CLI::App& app) {
   if (needs_command && !rest.empty() && rest.begin() != option)
     return fmt::format("'{}' is no command of {}{}", printable(rest[0]), full_name(command),
                        did_you_mean(meant(rest[0], commands, kCommandSynonyms)));
-  return option == rest.end() ? "" : unknown_option(command, *option);
+  if (option != rest.end()) return unknown_option(command, *option);
+  return rest.empty() ? "" : too_many_arguments(command, rest);
 }
 
 }  // namespace oriel::cli

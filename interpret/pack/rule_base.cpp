@@ -154,7 +154,22 @@ void name_rules(Pack& pack) {
   }
 }
 
+/// Another file, a city or a truth in JSON say, which is YAML, too: one finding is enough.
+bool is_other_file(const YamlNode& root) {
+  constexpr std::size_t kFewKeys = 2;  // all of them may be misspelt
+  return root.kind == YamlNode::Kind::map && root.entries.size() > kFewKeys &&
+         std::ranges::none_of(root.entries, [](const YamlEntry& entry) {
+           return rules::contains(top_keys(), entry.key.text);
+         });
+}
+
 void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
+  if (is_other_file(root)) {
+    findings.error(Code::R210, root.span,
+                   "this is no rule pack: it has none of the keys of one, such as 'schema', 'pack' "
+                   "and 'rules'; expected a YAML file as 'oriel rules new' writes it");
+    return;
+  }
   check_traps(root, findings);
   YamlSection top(root, "a pack", top_keys(), findings);
   if (!top.is_map()) return;

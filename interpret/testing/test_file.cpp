@@ -253,7 +253,9 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
   if (!text) {
     Issue issue;
     issue.code = Code::R200;
-    issue.sentence = "there are no tests here that can be read";
+    issue.sentence =
+        "there are no tests here that can be read; write them into this file, or start with "
+        "'oriel rules new'";
     issue.place.file = path;
     issues.push_back(std::move(issue));
     return std::nullopt;

@@ -95,7 +95,9 @@ std::string Reader::State::read_text() {
 Checked<Document> Reader::State::read_file() {
   std::string text = read_text();
   if (text.empty())
-    return {std::nullopt, {detail::error_in(name, {Code::E102, "the file is empty"})}};
+    return {std::nullopt,
+            {detail::error_in(name,
+                              {Code::E102, "the file is empty; write it again, or name another"})}};
   if (format == Format::obj) return detail::read_obj(text, name);
   if (format == Format::off) return detail::read_off(text, name);
   if (format == Format::ply) return detail::read_ply(text, name);

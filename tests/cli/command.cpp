@@ -97,6 +97,7 @@ void send_signal_to_worker(pid_t child, int signal) {
     const rlimit limit{around.cpu_limit_s, around.cpu_limit_s};
     ::setrlimit(RLIMIT_CPU, &limit);
   }
+  if (!around.folder.empty() && ::chdir(around.folder.c_str()) != 0) std::_Exit(127);
   std::vector<std::string> environment = around.environment;
   for (std::string& variable : environment) ::putenv(variable.data());
   ::execv(command.c_str(), argv.data());

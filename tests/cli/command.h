@@ -20,6 +20,8 @@ struct Outcome {
 struct Surroundings {
   /// What the command reads from stdin.
   std::string in{};
+  /// The folder that it runs in; empty: that of the tests.
+  std::string folder{};
   /// Where its stdout goes, if not into Outcome::out.
   std::string stdout_file{};
   /// stdout is a pipe that nobody reads any more.

@@ -90,9 +90,57 @@ TEST_SUITE("cli") {
               .exit == 2);
     CHECK(run({"generalise", sample("block"), "--to-lod", "2.0,2.0", "-o", "-"}).exit == 2);
     CHECK(run({"generalise", sample("block"), "--to-lod", "two", "-o", "-"}).exit == 2);
-    const Outcome unknown = run({"generalise", sample("block"), "--to-lod", "3.3", "-o", "-"});
-    CHECK(unknown.exit == 4);
-    CHECK(unknown.says("R275"));
+    for (const std::string lod : {"2", "9", "3.3", "two", ""}) {
+      const Outcome unknown = run({"generalise", sample("block"), "--to-lod", lod, "-o", "-"});
+      CAPTURE(unknown.err);
+      CHECK(unknown.exit == 2);
+      CHECK(unknown.says("--to-lod: R275 " +
+                         (lod.empty() ? "a level is needed" : "there is no level '" + lod + "'") +
+                         "; the levels of 'lod' are 2.0, 1.3, 1.2, 1.0\n"));
+    }
+    const Outcome none = run({"generalise", sample("block"), "--profile", "plateau", "-o", "-"});
+    CHECK(none.exit == 2);
+    CHECK(none.says("--profile: R275 a level is needed; the levels of 'plateau' are "));
+  }
+
+  TEST_CASE("a building with an outline only is rejected with E205 by every command and no more") {
+    const Folder folder;
+    json city = cubes({"a", "b"});
+    json& geometry = city["CityObjects"]["a"]["geometry"][0];
+    geometry = {{"type", "MultiSurface"},
+                {"lod", "0"},
+                {"boundaries", json::array({geometry["boundaries"][0][0]})}};
+    const std::string in = folder.write("in.city.json", city.dump());
+    const std::string out = folder / "out.city.json";
+    const std::vector<std::vector<std::string>> commands{
+        {"segment", "--json"},
+        {"label", "-o", out},
+        {"generalise", "--scale", "1:1000", "-o", out},
+        {"generalise", "--to-lod", "1.2", "-o", out},
+        {"generalise", "--series", "1:500,1:1000", "-o", folder / "series"},
+        {"repair", "-o", out},
+        {"view", "-o", folder / "page.html"},
+        {"explain"}};
+    for (std::vector<std::string> command : commands) {
+      command.insert(command.begin() + 1, in);
+      const Outcome outcome = run(command);
+      CAPTURE(command);
+      CAPTURE(outcome.err);
+      CHECK(outcome.exit == 3);
+      CHECK(
+          outcome.err.starts_with("error: a: E205 has no geometry above lod 0, which is an "
+                                  "outline on the ground or of the roof; expected lod 1 or "
+                                  "higher\n"));
+      CHECK_FALSE(outcome.says("G404"));
+      CHECK_FALSE(outcome.says("E301"));
+      CHECK_FALSE(outcome.says(" b: "));
+    }
+    CHECK(run({"label", in, "--lod", "0", "--id", "a", "-o", out}).exit == 0);
+    const Outcome asked =
+        run({"generalise", in, "--lod", "0", "--id", "a", "--scale", "1:1000", "-o", out});
+    CHECK(asked.exit == 3);
+    CHECK(asked.says("error: a: E205 has no walls and roof at lod 0"));
+    CHECK_FALSE(asked.says("G404"));
   }
 
   TEST_CASE("an account says what became of each feature and figures tell before from after") {

@@ -102,9 +102,11 @@ std::optional<Fault> check_type(dom::object root, std::string_view expected) {
   const auto type = member(root, "type");
   if (as_string(type) != expected)
     return Fault{Code::E107,
-                 fmt::format("is JSON, but not {}: its 'type' is {}", expected,
-                             type && type->is_string() ? in_quotes(*as_string(type))
-                                                       : std::string(found_kind(type)))};
+                 type ? fmt::format("is JSON, but not {}: its 'type' is {}", expected,
+                                    type->is_string() ? in_quotes(*as_string(type))
+                                                      : std::string(found_kind(type)))
+                      : fmt::format("is JSON, but not {0}: it has no 'type'; expected the type {0}",
+                                    expected)};
   if (expected != "CityJSON") return std::nullopt;
   const auto version = member(root, "version");
   const std::string_view text = as_string(version).value_or(std::string_view());

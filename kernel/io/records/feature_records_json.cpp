@@ -110,7 +110,8 @@ bool visit_json_records(std::string_view text, const TextName& name, bool is_lin
     if (!root) return false;
     if (!root->is_array()) {
       issues.push_back(
-          error_in(name, {Code::E111, fmt::format("the file holds {}; expected an array of records",
+          error_in(name, {Code::E111, fmt::format("the file holds one {}; expected an array of "
+                                                  "records, as label --features writes them",
                                                   root->type_name())}));
       return false;
     }
