@@ -28,6 +28,7 @@ const std::map<std::string, std::string> kAllowed{
      "headers of streams are compared; split --grid: where a feature lies"},
     {"kernel/io/cityjson/object_survey.h", "validate names what it does not judge"},
     {"kernel/io/document.h", "the records that the library reads"},
+    {"kernel/io/files/format.h", "which files of a folder are buildings; names of outputs"},
     {"kernel/io/files/output_file.h", "files appear when they are whole"},
     {"kernel/io/files/partial_files.h", "outputs of a run that is resumed"},
     {"kernel/io/records/feature_records.h", "which names are files of records; CSV of scores"},
