@@ -27,12 +27,14 @@ using namespace oriel::cli;
 /// The handler is reset when it is called, so the signal that it raises ends the program.
 extern "C" void end_by(int signal) {
   oriel::remove_temporary_files();
+  say_last_words();
   std::raise(signal);
 }
 
 /// From now on signals that end the program (Ctrl-C, a closed pipe or terminal) first delete the
-/// temporary files of outputs that are not done. The program still ends by the signal: its exit
-/// code is 128 + its number. A file that grows beyond its limit becomes a failed write.
+/// temporary files of outputs that are not done, and report what was summed so far. The program
+/// still ends by the signal: its exit code is 128 + its number. A file that grows beyond its limit
+/// becomes a failed write.
 void clean_up_on_signals() {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file beyond `ulimit -f` is an error of writing, as on a full disk

@@ -3,7 +3,6 @@
 #include "kernel/base/counted.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -54,9 +53,9 @@ Issue IssueSums::summed(const Sum& sum) {
   return issue;
 }
 
-std::vector<Issue> IssueSums::take() {
+std::vector<Issue> IssueSums::so_far() const {
   std::vector<Issue> issues;
-  for (const Sum& sum : std::exchange(sums_, {})) {
+  for (const Sum& sum : sums_) {
     if (sum.findings.empty()) continue;
     const std::size_t reported = sum.severity == Severity::error ? kErrorsShown : 0;
     if (sum.findings.size() + reported == sum.count)
@@ -64,6 +63,12 @@ std::vector<Issue> IssueSums::take() {
     else
       issues.push_back(summed(sum));
   }
+  return issues;
+}
+
+std::vector<Issue> IssueSums::take() {
+  std::vector<Issue> issues = so_far();
+  sums_.clear();
   return issues;
 }
 

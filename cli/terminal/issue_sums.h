@@ -18,7 +18,10 @@ class IssueSums {
 
   /// What is to be reported of all that was kept, in the order in which the codes came first: the
   /// findings where they are of one building; else one with their number and the first of them,
-  /// `E309 in 3 buildings (4 times), for example B: 2 facets ...`. Then nothing is kept.
+  /// `E309 in 3 buildings (4 times), for example B: 2 facets ...`.
+  [[nodiscard]] std::vector<Issue> so_far() const;
+
+  /// The same; then nothing is kept.
   std::vector<Issue> take();
 
  private:

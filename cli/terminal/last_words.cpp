@@ -5,9 +5,11 @@
 #include "kernel/base/issue.h"
 #include "kernel/io/files/output_file.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <exception>
 #include <gmp.h>
+#include <memory>
 #include <new>
 #include <string_view>
 #include <unistd.h>
@@ -22,8 +24,16 @@ constexpr std::string_view kNoMemory =
 /// The process whose temporary files there are: forked workers have only copies of its list.
 pid_t main_process = 0;
 
-void say(std::string_view sentence) noexcept {
-  [[maybe_unused]] const ssize_t count = ::write(STDERR_FILENO, sentence.data(), sentence.size());
+/// Who exchanges it owns what it gets: a handler of signals never reads what is being freed.
+std::atomic<std::string*> last_words = nullptr;
+
+/// As much of it as stderr takes.
+void say(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const ssize_t count = ::write(STDERR_FILENO, text.data(), text.size());
+    if (count <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
 }
 
 /// A code is so short that its text is not allocated.
@@ -52,6 +62,7 @@ void say_unknown() noexcept {
 }
 
 [[noreturn]] void end_uncaught() noexcept {
+  say_last_words();
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
     say_unknown();
@@ -102,7 +113,18 @@ void begin_to_throw_without_memory() {
   mp_set_memory_functions(allocate, reallocate, release);
 }
 
+void keep_last_words(std::string lines) {
+  auto kept = lines.empty() ? nullptr : std::make_unique<std::string>(std::move(lines));
+  const std::unique_ptr<std::string> before(last_words.exchange(kept.release()));
+}
+
+void say_last_words() noexcept {
+  if (::getpid() != main_process) return;
+  if (const std::string* lines = last_words.exchange(nullptr)) say(*lines);
+}
+
 void end_without_memory() noexcept {
+  say_last_words();
   say_memory_is_used_up(logs_json());
   if (::getpid() == main_process) remove_temporary_files();
   ::_exit(static_cast<int>(ExitCode::internal));

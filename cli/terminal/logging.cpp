@@ -1,5 +1,6 @@
 #include "cli/terminal/logging.h"
 
+#include "cli/terminal/last_words.h"
 #include "cli/terminal/option_values.h"
 #include "kernel/base/printable.h"
 
@@ -39,13 +40,21 @@ void append(spdlog::memory_buf_t& line, std::string_view text) {
   line.append(text.data(), text.data() + text.size());
 }
 
+/// What a finding begins with in text.
+std::string head_of_finding(spdlog::level::level_enum level, bool has_colours) {
+  const bool is_error = level >= spdlog::level::err, is_warning = level == spdlog::level::warn;
+  const char* word = is_error ? "error" : is_warning ? "warning" : "note";
+  const char* colour = is_error ? "\033[31m" : is_warning ? "\033[33m" : "\033[36m";
+  return has_colours ? fmt::format("{}{}\033[0m: ", colour, word) : fmt::format("{}: ", word);
+}
+
 /// Lines for a reader.
 class TextFormatter final : public spdlog::formatter {
  public:
   void format(const log_msg& message, spdlog::memory_buf_t& line) override {
     const std::string_view logger = view(message.logger_name);
     if (logger == kFindings)
-      append(line, head_of_finding(message.level));
+      append(line, head_of_finding(message.level, has_colours_));
     else if (logger != kRun && logger != kProgress)
       append(line,
              fmt::format("[{}] {}: ", view(spdlog::level::to_string_view(message.level)), logger));
@@ -60,13 +69,6 @@ class TextFormatter final : public spdlog::formatter {
   }
 
  private:
-  [[nodiscard]] std::string head_of_finding(spdlog::level::level_enum level) const {
-    const bool is_error = level >= spdlog::level::err, is_warning = level == spdlog::level::warn;
-    const char* word = is_error ? "error" : is_warning ? "warning" : "note";
-    const char* colour = is_error ? "\033[31m" : is_warning ? "\033[33m" : "\033[36m";
-    return has_colours_ ? fmt::format("{}{}\033[0m: ", colour, word) : fmt::format("{}: ", word);
-  }
-
   bool has_colours_ = has_colours();
 };
 
@@ -165,13 +167,33 @@ Log progress_log() { return log(kProgress); }
 Log run_log() { return log(kRun); }
 
 void Report::add(const std::vector<Issue>& issues) {
-  for (const Issue& issue : issues) add(issue);
+  bool is_kept = false;
+  for (const Issue& issue : issues) is_kept = add_one(issue) || is_kept;
+  if (is_kept) keep_sums_as_last_words();
 }
 
 void Report::add(const Issue& issue) {
+  if (add_one(issue)) keep_sums_as_last_words();
+}
+
+bool Report::add_one(const Issue& issue) {
   if (issue.severity == Severity::error) ++errors_[to_string(issue.code)];
   const bool lists_all = is_verbose_ || logs_json() || findings_log().is_on(LogLevel::debug);
-  if (lists_all || !sums_.keep(issue)) write(issue);
+  const bool is_kept = !lists_all && sums_.keep(issue);
+  if (!is_kept) write(issue);
+  return is_kept;
+}
+
+void Report::keep_sums_as_last_words() const {
+  std::string lines = isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "";  // in place of a bar
+  const std::size_t before = lines.size();
+  for (const Issue& issue : sums_.so_far()) {
+    const bool is_error = issue.severity == Severity::error;
+    if (!findings_log().is_on(is_error ? LogLevel::error : LogLevel::warning)) continue;
+    lines += head_of_finding(is_error ? spdlog::level::err : spdlog::level::warn, has_colours()) +
+             printable_lines(to_string(issue)) + "\n";
+  }
+  if (lines.size() > before) keep_last_words(std::move(lines));
 }
 
 void Report::finish() {
@@ -182,6 +204,7 @@ void Report::finish() {
   }
   if (is_summed)
     run_log().info("findings about several buildings are summed by code; --verbose lists all");
+  keep_last_words({});
 }
 
 /// Words that cannot be said any more for want of memory are no reason to end by a signal.

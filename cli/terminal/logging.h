@@ -44,7 +44,8 @@ Log run_log();
 
 /// Reports to the user what was found (findings_log), and counts errors. Notes stand on level debug
 /// unless they are asked for. What is found about the buildings of a city is summed by code
-/// (IssueSums), unless notes are asked for, or JSON.
+/// (IssueSums), unless notes are asked for, or JSON; the sums so far are the last words of a run
+/// that ends at once.
 class Report {
  public:
   explicit Report(bool is_verbose) : is_verbose_(is_verbose) {}
@@ -65,7 +66,10 @@ class Report {
   [[nodiscard]] const std::map<std::string, int>& errors() const { return errors_; }
 
  private:
+  /// True if it is summed.
+  bool add_one(const Issue& issue);
   void write(const Issue& issue) const;
+  void keep_sums_as_last_words() const;
 
   bool is_verbose_;
   std::map<std::string, int> errors_;

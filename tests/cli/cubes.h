@@ -36,12 +36,23 @@ inline nlohmann::ordered_json cubes(const std::vector<std::string>& ids) {
   return city;
 }
 
-/// The same as a CityJSONSeq: a header, then a line for each cube.
-inline std::string cube_lines(const std::vector<std::string>& ids) {
-  nlohmann::ordered_json header = cubes({});
+/// The same with the first ring of each cube beginning with a vertex twice: E312.
+inline nlohmann::ordered_json doubled_cubes(const std::vector<std::string>& ids) {
+  nlohmann::ordered_json city = cubes(ids);
+  for (const std::string& id : ids) {
+    auto& ring = city["CityObjects"][id]["geometry"][0]["boundaries"][0][0][0];
+    ring.insert(ring.begin(), ring[0]);
+  }
+  return city;
+}
+
+/// What `make` gives as a CityJSONSeq: a header, then a line for each cube.
+template <class Cubes>
+std::string cube_lines_of(Cubes make, const std::vector<std::string>& ids) {
+  nlohmann::ordered_json header = make(std::vector<std::string>{});
   std::string text = header.dump() + "\n";
   for (const std::string& id : ids) {
-    nlohmann::ordered_json feature = cubes({id});
+    nlohmann::ordered_json feature = make(std::vector<std::string>{id});
     feature["type"] = "CityJSONFeature";
     feature["id"] = id;
     feature.erase("version");
@@ -49,6 +60,14 @@ inline std::string cube_lines(const std::vector<std::string>& ids) {
     text += feature.dump() + "\n";
   }
   return text;
+}
+
+inline std::string cube_lines(const std::vector<std::string>& ids) {
+  return cube_lines_of(cubes, ids);
+}
+
+inline std::string doubled_cube_lines(const std::vector<std::string>& ids) {
+  return cube_lines_of(doubled_cubes, ids);
 }
 
 /// A cube of 4 m and on it, as an installation of its own, a shaft of 0.5 × 0.5 × 1 m from the

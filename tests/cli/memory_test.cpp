@@ -1,4 +1,5 @@
 #include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
 
 #include <cstdlib>
 #include <string>
@@ -43,6 +44,27 @@ TEST_SUITE("cli") {
         std::filesystem::remove(folder / "o.city.json");
       }
     CHECK(said > 0);
+#endif
+  }
+
+  TEST_CASE("used-up memory does not keep back the sums so far") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    MESSAGE("skipped: sanitizers need more address space than there is");
+#else
+    const Folder folder;
+    constexpr int kKilobytes = 110'000;
+    const std::string lines = doubled_cube_lines({"a", "b", "c"});
+    const std::string arguments =
+        fmt::format("label '{}' -o '{}'", folder / "c.city.jsonl", folder / "o.city.jsonl");
+    folder.write("c.city.jsonl", lines);
+    REQUIRE(exit_with_memory(folder, kKilobytes, arguments) == 0);
+    // A record that does not fit into the address space.
+    folder.write("c.city.jsonl", lines + std::string(64 << 20, ' ') + "{}\n");
+    CHECK(exit_with_memory(folder, kKilobytes, arguments) == 1);
+    const std::string err = bytes_of(folder / "err");
+    CAPTURE(err);
+    CHECK(err.find("warning: E312 in 3 buildings, for example") != std::string::npos);
+    CHECK(err.find("E507") != std::string::npos);
 #endif
   }
 }
