@@ -89,7 +89,7 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
     out.issues.push_back(building_issue(
         Severity::error, Code::G402, table.building(),
-        fmt::format("nothing closed would be left at {}; it stays as it is", target)));
+        fmt::format("no closed solid would be left at {}; it stays unchanged", target)));
     return out;
   }
   out.value = Generalised{

@@ -277,9 +277,9 @@ class SeriesDrawer {
   /// No valid solid has such, so it was none when it was read, and its levels are none.
   static Issue doubled(const Building& building, const DoubledFacet& fault) {
     const Vec3 p = metres_of(fault.corner());
-    return building_issue(
-        Severity::error, Code::G410, building.id,
-        fmt::format("is no series: {} at ({:.3f}, {:.3f}, {:.3f})", fault.what(), p.x, p.y, p.z));
+    return building_issue(Severity::error, Code::G410, building.id,
+                          fmt::format("is not a series: {} at ({:.3f}, {:.3f}, {:.3f})",
+                                      fault.what(), p.x, p.y, p.z));
   }
 
   const Document& document_;

@@ -25,15 +25,14 @@ namespace {
 Format checked_format(const std::string& path, std::span<const Document> documents) {
   const auto format = format_of(path);
   if (!format || *format == Format::citygml)
-    refuse(
-        path,
-        "is no name of a format that is written: .city.json, .city.jsonl, .obj, .off, .ply, .stl");
+    refuse(path,
+           "names no format that can be written: .city.json, .city.jsonl, .obj, .off, .ply, .stl");
   for (const Document& document : documents) {
     const bool is_stream = document.format == Format::cityjson_seq;
     const bool becomes_stream = *format == Format::cityjson_seq;
     if (document.format == Format::citygml || is_stream == becomes_stream) continue;
     if (becomes_stream || *format == Format::cityjson)
-      refuse(path, fmt::format("{} is not written as {}", to_string(document.format),
+      refuse(path, fmt::format("{} cannot be written as {}", to_string(document.format),
                                to_string(*format)));
   }
   return *format;

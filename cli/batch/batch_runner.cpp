@@ -157,7 +157,7 @@ bool BatchRunner::begin_status() {
     if (const auto finished = resume_->finished()) {
       was_done_ = true;
       state_.code = static_cast<ExitCode>(*finished);
-      run_log().info("all of it was done before");
+      run_log().info("there is nothing left to do: the run was complete");
       return false;
     }
   }

@@ -189,13 +189,13 @@ bool Isolation::fill() {
 
 void Isolation::start(Batch& batch) {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) give_up("no pipe to a worker");
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) give_up("cannot open a pipe to a worker");
   batch.report = free_reports_.back();
   free_reports_.pop_back();
   batch.report->building = kNoBuilding;
   const pid_t parent = ::getpid();
   batch.worker = ::fork();
-  if (batch.worker < 0) give_up("no process for a worker");
+  if (batch.worker < 0) give_up("cannot start a worker");
   if (batch.worker == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(0);
@@ -235,7 +235,7 @@ void Isolation::receive() {
   if (pipes.empty()) return;
   if (::poll(pipes.data(), pipes.size(), -1) < 0) {
     if (errno == EINTR) return;
-    give_up("workers cannot be heard");
+    give_up("workers cannot be read from");
   }
   for (std::size_t i = 0; i < pipes.size(); ++i)
     if (pipes[i].revents != 0) read_from(*from[i]);
@@ -247,7 +247,7 @@ void Isolation::read_from(Batch& batch) {
   const ssize_t count = ::read(batch.pipe, batch.received.data() + had, kPipeChunk);
   batch.received.resize(had + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   if (count < 0 && errno == EINTR) return;
-  if (count < 0) give_up("a worker cannot be heard");
+  if (count < 0) give_up("a worker cannot be read from");
   std::size_t at = 0;
   while (!batch.is_answered() && take_message(batch.received, at, *batch.items[batch.answered])) {
     ++batch.answered;

@@ -72,7 +72,7 @@ ResultCache::ResultCache(const std::string& status, const std::string& stem,
     fault_.emplace();
     fault_->severity = Severity::warning;
     fault_->code = Code::E124;
-    fault_->sentence = fmt::format("nothing is taken from this run: {}", why.what());
+    fault_->sentence = fmt::format("this run cannot be reused: {}", why.what());
     fault_->place.file = status;
     notes_.clear();
   }
@@ -85,12 +85,13 @@ ResultCache::~ResultCache() {
 
 /// Files are opened before they are checked: this run may put others in their place.
 void ResultCache::load(const std::string& status, const std::string& recipe_sha256) {
-  if (!status.ends_with(kStatusEnding)) throw std::runtime_error("it is no file in .status.json");
+  if (!status.ends_with(kStatusEnding))
+    throw std::runtime_error("its name does not end in .status.json");
   std::ifstream file(status, std::ios::binary);
   if (!file) throw std::runtime_error("there is none");
   const ordered_json json = ordered_json::parse(file, nullptr, false);
   if (!json.is_object() || !json.contains("outputs"))
-    throw std::runtime_error("it is no status file");
+    throw std::runtime_error("it is not a status file");
   notes_path_ = status.substr(0, status.size() - kStatusEnding.size()) + kNotesEnding;
   const FileMarks marks = marks_of(json.at("outputs"));
   if (!marks.contains(notes_path_)) throw std::runtime_error("it was made without --reuse");
@@ -104,7 +105,7 @@ void ResultCache::load(const std::string& status, const std::string& recipe_sha2
   std::string line;
   std::getline(notes, line);
   if (line + "\n" != note_text({{"recipe_sha256", recipe_sha256}}))
-    throw std::runtime_error("its rules, options or program are others");
+    throw std::runtime_error("its rules, options or program differ");
   // A note begins with its hash: the rest is parsed when it is asked for.
   constexpr std::string_view kBegin = "{\"source_sha256\":\"";
   for (std::uint64_t at = line.size() + 1; std::getline(notes, line); at += line.size() + 1)

@@ -106,7 +106,7 @@ JournalState journal_state_of(const ordered_json& json) {
 }
 
 InputError damaged_journal(const std::string& path) {
-  return not_the_same(path, "is damaged: it has what oriel does not write");
+  return not_the_same(path, "is damaged: its content was not written by oriel");
 }
 
 Journal::~Journal() {
@@ -197,10 +197,10 @@ Resume::Resume(const RunOptions& options, const std::string& rules_sha256)
     throw damaged_journal(path());
   }
   if (state.command != command_sha256_)
-    throw not_the_same(path(), "is of another command, program or rule pack");
+    throw not_the_same(path(), "belongs to another command, program or rule pack");
   position_ = std::move(state.position);
   if (!PartialFiles::restore(state.files))
-    throw not_the_same(path(), "lists outputs that are not there any more");
+    throw not_the_same(path(), "lists outputs that no longer exist");
   for (const auto& [name, mark] : journal_.read())
     if (name != "-" && sha256_of_file(name) != mark.sha256)
       throw not_the_same(path(), name + " has changed since");

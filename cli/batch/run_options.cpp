@@ -77,12 +77,13 @@ std::vector<Issue> Selection::unmet(const std::set<std::string>& found, bool has
     if (!found.contains(id) && (cotype.empty() || !has_any))
       issues.push_back(
           building_issue(Severity::warning, Code::E130, id,
-                         "is asked for by --id and is in none of the inputs" + meant_id(id, seen)));
+                         "is named by --id but is in none of the inputs" + meant_id(id, seen)));
   if (!issues.empty() || has_any || is_all()) return issues;
   Issue issue;
   issue.severity = Severity::warning;
   issue.code = Code::E130;
-  issue.sentence = "the selection (--id, --bbox, --cotype, --random, --exclude) takes no building";
+  issue.sentence =
+      "the selection (--id, --bbox, --cotype, --random, --exclude) matches no building";
   return {issue};
 }
 

@@ -56,7 +56,7 @@ bool is_lod(const std::string& text) {
 
 void check_lod(const std::string& option, const std::string& lod) {
   if (!is_lod(lod))
-    throw CLI::ValidationError(option, fmt::format("'{}' is no level of detail", lod));
+    throw CLI::ValidationError(option, fmt::format("'{}' is not a level of detail", lod));
 }
 
 /// The names of the profiles, as load_profile_file takes them.
@@ -67,7 +67,7 @@ std::vector<std::string> profile_names(const TargetArguments& arguments) {
   std::ranges::sort(sorted);
   if (std::ranges::adjacent_find(sorted) != sorted.end())
     throw CLI::ValidationError("--to-lod",
-                               "a level of detail stands twice; name each of them once");
+                               "a level of detail is given twice; name each of them once");
   std::vector<std::string> names;
   for (const std::string& lod : lods)
     names.push_back((profile.empty() ? "lod" : profile) + ":" + lod);
@@ -90,7 +90,7 @@ double denominator_of(const std::string& text, const std::string& option) {
   if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
       !std::isfinite(value))
     refuse_usage(option, Code::E125,
-                 fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
+                 fmt::format("'{}' is not a scale: write 1:N with N >= 1, such as 1:2000", text));
   return value;
 }
 
@@ -270,7 +270,7 @@ std::vector<double> scales_of(const std::vector<std::string>& texts) {
   const auto twin = std::ranges::adjacent_find(scales);
   if (twin != scales.end())
     refuse_usage("--series", Code::E125,
-                 fmt::format("the scale 1:{} stands twice; name each scale once", *twin));
+                 fmt::format("the scale 1:{} is given twice; name each scale once", *twin));
   return scales;
 }
 
@@ -280,7 +280,7 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
   if (arguments.series.empty()) return std::nullopt;
   if (!arguments.explain.empty() || !arguments.metrics.empty())
     refuse_usage("--series", Code::G414,
-                 "does not work with --explain and --metrics, which are of one scale");
+                 "does not work with --explain and --metrics, which are for one scale");
   const std::vector<double> scales = scales_of(arguments.series);
   if (arguments.target.profile.empty())
     return write_series(arguments, scales, std::nullopt, rules, report);
@@ -296,7 +296,7 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
 void check_source(const GeneraliseArguments& arguments) {
   if (!arguments.at.empty()) {
     if (!arguments.inputs.empty())
-      throw CLI::ValidationError("--at", "has no input but the series that --from names");
+      throw CLI::ValidationError("--at", "takes no input but the series that --from names");
     if (arguments.from.empty())
       throw CLI::ValidationError("--at", "needs --from NAME, the -o of the --series that was made");
     if (!arguments.selection.is_all())

@@ -85,12 +85,12 @@ std::optional<Issue> check_provenance(const Shard& shard, const std::string& fil
     while (sha256 != shard.sha256) {
       const auto step = steps.find(sha256);
       if (step == steps.end())
-        return shard_issue(file, !has_step
-                                     ? fmt::format("is not the output that {} lists", status)
-                                     : fmt::format("was not made of shard {}: {} has another input",
-                                                   shard.name, status));
+        return shard_issue(
+            file, !has_step ? fmt::format("is not the output that {} lists", status)
+                            : fmt::format("was not made from shard {}: {} has another input",
+                                          shard.name, status));
       if (step->second.inputs.size() != 1)
-        return shard_issue(file, "was made of several inputs; expected one shard");
+        return shard_issue(file, "was made from several inputs; expected one shard");
       expected -= std::min(expected, step->second.left_out);
       sha256 = step->second.inputs[0];
       has_step = true;
@@ -141,7 +141,7 @@ class Merger {
     for (const std::string& file : arguments_.files) {
       const std::string name = name_of(file);
       if (!known.contains(name))
-        tell(shard_issue(file, fmt::format("is no shard of {}", arguments_.list)));
+        tell(shard_issue(file, fmt::format("is not a shard of {}", arguments_.list)));
       else if (const auto [twin, is_new] = file_of_.try_emplace(name, file); !is_new)
         tell(shard_issue(file, fmt::format("is the same shard as {}", twin->second)));
     }

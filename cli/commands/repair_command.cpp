@@ -40,10 +40,10 @@ std::string summary_of(const Building& building, const Repaired& repaired) {
   double closed_m2 = 0;
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
   return fmt::format(
-      "{}: repaired: {} dropped, {} put into edges, {} cut at contacts, {} of more than two "
+      "{}: repaired: {} dropped, {} inserted into edges, {} cut at contacts, {} of more than two "
       "polygons, {} turned round, {} ({:.2f} m2) and {} ({:.2f} m2) left out, {} closed "
       "({:.2f} m2), {}, {}",
-      building.id, counted(report.duplicates.size(), "double"),
+      building.id, counted(report.duplicates.size(), "duplicate"),
       counted(report.t_vertices, "vertex", "vertices"), counted(report.cut, "polygon"),
       counted(report.crowded_edges, "edge"), counted(report.turned, "polygon"),
       counted(report.dangling.size(), "dangling sheet"), report.dangling_area_m2,

@@ -260,7 +260,7 @@ void refuse_present(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     std::error_code none;
     if (std::filesystem::exists(std::filesystem::symlink_status(path, none)))
-      refuse_usage("name", Code::E604, printable(path) + " is there already; nothing is written");
+      refuse_usage("name", Code::E604, printable(path) + " exists already; nothing is written");
   }
 }
 

@@ -191,10 +191,9 @@ class Segmenter final : public VisitingCommand {
   /// Of an open building nothing: it has no tree.
   [[nodiscard]] std::string tree_text(const Building& building, const PipelineResult& line) const {
     if (line.is_open) {
-      runner_.set_aside(building_issue(
-          Severity::error, Code::E302, building.id,
-          "has no tree: its polygons are no closed solid (--close any, or oriel repair, may make "
-          "one)"));
+      runner_.set_aside(building_issue(Severity::error, Code::E302, building.id,
+                                       "has no tree: its polygons do not form a closed solid "
+                                       "(--close any, or oriel repair, may make one)"));
       return {};
     }
     const TreeComparison trees = compare_trees(line, arguments_.budget);

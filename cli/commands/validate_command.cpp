@@ -86,7 +86,7 @@ class UnjudgedObjects {
       issue.severity = is_of_building(type) ? Severity::note : Severity::warning;
       issue.code = Code::E214;
       issue.sentence = fmt::format(
-          "{} of type {} with geometry {} not judged, only buildings and their parts are{}{}{}",
+          "{} of type {} with geometry {} not checked, only buildings and their parts are{}{}{}",
           counted(kind.count, "object"), type, agreeing(kind.count, "is", "are"),
           kind.ids.empty() ? "" : ": ", fmt::join(kind.ids, ", "),
           std::cmp_less(kind.ids.size(), kind.count) && !kind.ids.empty() ? ", ..." : "");
@@ -393,7 +393,7 @@ class Validation {
     if (unread_records_ > 0)
       text += fmt::format("; {} could not be read", counted(unread_records_, "record"));
     if (unjudged_ > 0)
-      text += fmt::format("; {} not judged",
+      text += fmt::format("; {} not checked",
                           counted(unjudged_, "other object was", "other objects were"));
     run_log().write(LogLevel::info, text);
   }

@@ -114,7 +114,7 @@ ExitCode work(ViewArguments& arguments) {
         add_model(arguments_after(arguments, std::move(ids)), *rules, report, page, found, true);
     if (found.empty() && second == ExitCode::input) return second;
     if (found.empty())
-      refuse(Code::E128, arguments.after, "has none of the buildings that it should show after");
+      refuse(Code::E128, arguments.after, "has none of the buildings that are shown");
     code = graver(code, second);
   }
   write_file(arguments.out, page_of(page.json()));

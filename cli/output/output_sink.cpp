@@ -83,7 +83,7 @@ void OutputSink::check(std::size_t input) const {
              is_stream_out = to == Format::cityjson_seq;
   if (is_stream_in != is_stream_out && (is_stream_out || to == Format::cityjson))
     throw CLI::ValidationError(
-        "-o", fmt::format("{} is not written as {}: oriel {} turns one into the other",
+        "-o", fmt::format("{} cannot be written as {}: oriel {} turns one into the other",
                           to_string(from), to_string(to), is_stream_in ? "collect" : "cat"));
 }
 

@@ -43,10 +43,10 @@ void check_outputs(const LabellingArguments& arguments) {
     refuse_usage("-o", Code::G414, "the files of a series need a name: -o NAME");
   if (!arguments.to.empty())
     refuse_usage("--to", Code::G414,
-                 "the levels of a series are CityJSON, those of streams streams");
+                 "the levels of a series are CityJSON files, or streams if the inputs are streams");
   if (arguments.is_isolated || !arguments.reuse.empty() || arguments.is_resumable)
     refuse_usage("--series", Code::G414,
-                 "does not work with --isolate, --reuse and --resume, which are of one scale");
+                 "does not work with --isolate, --reuse and --resume, which are for one scale");
 }
 
 /// The files of a series: one for each scale, and the log. They appear when all inputs are done.
@@ -108,7 +108,7 @@ SeriesFiles::Kind SeriesFiles::kind_of(const LabellingArguments& arguments) {
   if (streams == 0) return arguments.inputs.size() == 1 ? Kind::one_file : Kind::several_files;
   if (std::cmp_not_equal(streams, arguments.inputs.size()))
     refuse_usage("input", Code::G414,
-                 "streams and files make no common series: oriel cat turns files into streams");
+                 "streams and files cannot form one series: oriel cat turns files into streams");
   return Kind::streams;
 }
 
@@ -177,7 +177,8 @@ void SeriesFiles::check_header(const std::string& header, const Document& docume
   Issue issue;
   issue.code = Code::G414;
   issue.sentence =
-      "has buildings in its header, which is not the first: oriel cat makes lines of it";
+      "has buildings in its header, which only the first stream may have: oriel cat turns them "
+      "into lines";
   issue.place.file = input;
   throw InputError(std::move(issue));
 }

@@ -41,7 +41,7 @@ ShardList ShardList::load(const std::string& path) {
       list.shards.push_back(
           {shard.at("name"), shard.at("features"), shard.at("bytes"), shard.at("sha256")});
   } catch (const ordered_json::exception& error) {
-    throw InputError(shard_issue(path, fmt::format("is no list of shards: {}", error.what())));
+    throw InputError(shard_issue(path, fmt::format("is not a list of shards: {}", error.what())));
   }
   return list;
 }

@@ -55,7 +55,7 @@ std::optional<Issue> CommonHeader::check(const std::string& header, const std::s
   if (facts == facts_) return std::nullopt;
   Issue issue;
   issue.code = Code::E116;
-  issue.sentence = fmt::format("has the header {}, but that of {} is {}: they share no {}", facts,
+  issue.sentence = fmt::format("has the header {}, but {} has {}: they cannot share a {}", facts,
                                input_, facts_, is_file ? "file" : "stream");
   issue.place.file = input;
   return issue;

@@ -251,7 +251,7 @@ std::string usage_advice(const CLI::App& app) {
   const auto commands = command_names(command);
   const bool needs_command = !commands.empty() && command.get_subcommands().empty();
   if (needs_command && !rest.empty() && rest.begin() != option)
-    return fmt::format("'{}' is no command of {}{}", printable(rest[0]), full_name(command),
+    return fmt::format("'{}' is not a command of {}{}", printable(rest[0]), full_name(command),
                        did_you_mean(meant(rest[0], commands, kCommandSynonyms)));
   if (option != rest.end()) return unknown_option(command, *option);
   return rest.empty() ? "" : too_many_arguments(command, rest);

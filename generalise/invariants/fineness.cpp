@@ -390,7 +390,7 @@ std::vector<Issue> fineness_issues(const Building& building, const Solid& before
     }
   };
   report(edges, Code::G415, "edges below {} m left");
-  report(whole, Code::G415, "edges below {} m of parts that stay as they were", false);
+  report(whole, Code::G415, "edges below {} m of parts that stay unchanged", false);
   report(gaps, Code::G416, "gaps below {} m left");
   return issues;
 }

@@ -60,7 +60,7 @@ bool becomes_block(const Step& step) {
 
 Placed aggregate(const Redrawing& task) {
   const auto host = task.host();
-  if (!host) return {std::nullopt, "its wall is not found any more"};
+  if (!host) return {std::nullopt, "its wall is no longer found"};
   if (becomes_block(task.steps[0])) return block(task, *host);
   if (task.steps.size() < 2) return {std::nullopt, "it is the only one of its storey and facade"};
   Extents all = extents_of(*host, task.segmentation, task.feature());
@@ -93,7 +93,7 @@ Placed typify(const Redrawing& task) {
   const std::size_t m = typified_count(n, task.number("ratio", 0.5));
   if (m >= n) return {std::nullopt, "its row has no more members than are to stay"};
   const auto host = task.host();
-  if (!host) return {std::nullopt, "its wall is not found any more"};
+  if (!host) return {std::nullopt, "its wall is no longer found"};
   RowMeans row;
   row.all = extents_of(*host, task.segmentation, task.feature());
   for (std::size_t i = 0; i < n; ++i) {
@@ -158,7 +158,7 @@ std::vector<double> least_shifts(const std::vector<double>& wished,
 
 Placed displace(const Redrawing& task) {
   const auto host = task.host();
-  if (!host) return {std::nullopt, "its wall is not found any more"};
+  if (!host) return {std::nullopt, "its wall is no longer found"};
   const double to_m = task.number("to", 0), gap_m = task.gap_m();
   std::vector<Extents> members;
   std::vector<double> centres, apart;

@@ -121,7 +121,7 @@ Placed merge(const Redrawing& task) {
 
 Placed enlarge(const Redrawing& task) {
   const auto host = task.host();
-  if (!host) return {std::nullopt, "its wall is not found any more"};
+  if (!host) return {std::nullopt, "its wall is no longer found"};
   const Feature& feature = task.feature();
   const Extents now = extents_of(*host, task.segmentation, feature);
   const bool is_block = feature.sense == Sense::protrusion;
@@ -151,7 +151,7 @@ Placed enlarge(const Redrawing& task) {
 
 Placed symbolise(const Redrawing& task) {
   const auto host = task.host();
-  if (!host) return {std::nullopt, "its roof or wall is not found any more"};
+  if (!host) return {std::nullopt, "its roof or wall is no longer found"};
   if (task.feature().sense != Sense::protrusion)
     return {std::nullopt, "only what sticks out can be symbolised"};
   const std::string with = task.word("with", "chimney_block");
@@ -165,7 +165,7 @@ Placed symbolise(const Redrawing& task) {
 
 Placed collapse(const Redrawing& task) {
   const auto host = task.host();
-  if (!host) return {std::nullopt, "its wall or roof is not found any more"};
+  if (!host) return {std::nullopt, "its wall or roof is no longer found"};
   const Feature& feature = task.feature();
   if (feature.sense == Sense::imprint) return {std::nullopt, "it has no depth"};
   const Extents e = extents_of(*host, task.segmentation, feature);

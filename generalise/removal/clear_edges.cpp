@@ -43,7 +43,7 @@ class EdgeClearer {
 
   bool clear(const ShortEdge& edge, std::string& reason) {
     if (!validator_) {
-      reason = "whether the building would still be valid is not asked";
+      reason = "whether the building would still be valid was not checked";
       return false;
     }
     for (const FacetId facet : facets_at(edge)) {

@@ -345,7 +345,7 @@ class CellRemover {
             kFootprint * footprint_m2_ + ground_below_m2(gone) ||
         std::abs(volume_m3(made) - volume_m3(solid_)) > most_m3 ||
         detail::loses_what_stays(solid_, made, segmentation_, gone) || !is_fit(made))
-      return Refusal{{}, "what is left would be no valid solid"};
+      return Refusal{{}, "removing it would leave no valid solid"};
     return std::nullopt;
   }
 
@@ -444,7 +444,7 @@ Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Rem
   remainder.removed = with_what_sits_on(segmentation, remover.gone());
   for (const FeatureId id : asked)
     if (!std::ranges::binary_search(remainder.removed, id))
-      remainder.refused.push_back({id, "what is left would be no valid solid"});
+      remainder.refused.push_back({id, "removing it would leave no valid solid"});
   std::ranges::sort(remainder.refused, {}, &Refusal::feature);
   std::erase_if(remainder.refused, [&](const Refusal& refusal) {
     return std::ranges::binary_search(remainder.removed, refusal.feature);

@@ -161,7 +161,7 @@ class Levels {
   static SeriesLevel given_up(const SeriesLevel& before, SeriesLevel after, Issue fault,
                               std::vector<Issue>& issues) {
     fault.severity = Severity::warning;
-    fault.sentence += fmt::format("; at 1:{} it stays as it is at the scale before", after.scale);
+    fault.sentence += fmt::format("; at 1:{} it stays as at the previous scale", after.scale);
     issues.push_back(std::move(fault));
     after.refused.insert(after.refused.end(), after.steps.begin(), after.steps.end());
     return unchanged(before, std::move(after));
@@ -229,9 +229,9 @@ class Levels {
       add_tasks(before, tasks.first(tasks.size() / 2), best, issues);
       add_tasks(before, tasks.subspan(tasks.size() / 2), best, issues);
     } else {
-      Issue issue = building_issue(Severity::warning, Code::G408, input_.table.building(),
-                                   "stays as it is: a change that was made at a larger scale would "
-                                   "be undone");
+      Issue issue = building_issue(
+          Severity::warning, Code::G408, input_.table.building(),
+          "stays unchanged: a change that was made at a larger scale would be undone");
       issue.place.feature = input_.table.id(tasks[0][0].feature);
       issues.push_back(std::move(issue));
     }

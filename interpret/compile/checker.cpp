@@ -229,7 +229,7 @@ ExprId Checker::check_attribute(const Syntax& syntax, int column) {
 ExprId Checker::check_macro(const Syntax& syntax, Macro& macro) {
   if (macro.is_open)
     return code_.fail(Code::R247, syntax.span,
-                      fmt::format("the macro '{}' needs itself", macro.name));
+                      fmt::format("the macro '{}' uses itself", macro.name));
   if (macro_depth_ >= kDeepestExpression)
     return code_.fail(Code::R222, syntax.span, "macros nest no deeper than 64 levels");
   macro.is_used = true;

@@ -52,7 +52,7 @@ std::optional<int> NameLookup::param(const Syntax& syntax) {
   const bool is_other = find_attribute(syntax.name) || index_of(names_->macros, syntax.name) >= 0;
   if (is_other) {
     findings_->error(Code::R206, syntax.span,
-                     fmt::format("'{}' is {} and no param; write it without '$'", syntax.name,
+                     fmt::format("'{}' is {} and not a param; write it without '$'", syntax.name,
                                  find_attribute(syntax.name) ? "an attribute" : "a macro"));
     return std::nullopt;
   }
@@ -78,7 +78,7 @@ ClassId NameLookup::class_of(const Syntax& syntax) {
   const AttributeInfo* attribute = syntax.is_of_host ? nullptr : attribute_with_word(name);
   if (attribute != nullptr) {
     findings_->error(Code::R205, syntax.name_span,
-                     fmt::format("'{}' is no class but a word of '{}': write '{} = {}'", name,
+                     fmt::format("'{}' is not a class but a word of '{}': write '{} = {}'", name,
                                  attribute->name, attribute->name, name));
     return kNoClass;
   }
@@ -124,11 +124,10 @@ std::optional<int> NameLookup::relation(const Syntax& syntax) {
 void NameLookup::report_relation(const std::string& name, SourceSpan where) {
   if (contains(names_->broken_relations, name) || names_->unread.contains("relations")) return;
   if (index_of(pack_->classes, name) >= 0)
-    return findings_->error(
-        Code::R207, where,
-        fmt::format("'{}' is a class and no relation; write 'contains where is {}', or another "
-                    "relation in place of contains",
-                    name, name));
+    return findings_->error(Code::R207, where,
+                            fmt::format("'{}' is a class and not a relation; write 'contains where "
+                                        "is {}', or another relation in place of contains",
+                                        name, name));
   const auto relations = relation_names(*pack_);
   findings_->error(Code::R207, where,
                    unknown_name(NameKind::relation, "relation", name, relations,

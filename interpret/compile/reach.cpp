@@ -142,17 +142,15 @@ bool report_overlap(const Pack& pack, const GeneraliseEntry& first, const Genera
   if (from == second.scale_from && to == second.scale_to) {
     findings.warning(
         Code::R255, second.span,
-        fmt::format("the entry '{}' never decides: '{}' ({}) stands before it, without "
-                    "a condition",
+        fmt::format("the entry '{}' never decides: '{}' ({}) comes before it, without a condition",
                     second.id, first.id, where));
     return true;
   }
   if (from >= to || first.operation == second.operation) return false;
-  findings.warning(
-      Code::R256, second.span,
-      fmt::format("at {} '{}' ({}) decides and '{}' does not: part their scales, or give the first "
-                  "one a condition",
-                  scale_text(from, to), first.id, where, second.id));
+  findings.warning(Code::R256, second.span,
+                   fmt::format("at {} '{}' ({}) decides and '{}' does not: separate their scales, "
+                               "or give the first one a condition",
+                               scale_text(from, to), first.id, where, second.id));
   return true;
 }
 

@@ -128,11 +128,11 @@ std::string suggest_cut(const Pack& pack, const Question& q) {
   while (above != kNoClass) {
     const Class& c = pack.classes[oriel::at(above)];
     if (c.is_abstract && c.has_rules && above != q.reader)
-      return fmt::format("; to cut the circle ask for '{}' in place of '{}'", c.name,
+      return fmt::format("; to break the cycle ask for '{}' in place of '{}'", c.name,
                          pack.classes[oriel::at(q.read)].name);
     above = c.parent;
   }
-  return "; to cut the circle ask for an abstract class there, one that is found by its shape";
+  return "; to break the cycle ask for an abstract class there, one that is found by its shape";
 }
 
 void report_circle(const Pack& pack, const Question& strict, const std::vector<Question>& questions,
@@ -145,7 +145,7 @@ void report_circle(const Pack& pack, const Question& strict, const std::vector<Q
                            : "a label is decided before it is asked for";
   findings.error(
       Code::R243, strict.span,
-      "these rules wait for each other: " + circle + "; " + reason + suggest_cut(pack, strict));
+      "these rules depend on each other: " + circle + "; " + reason + suggest_cut(pack, strict));
 }
 
 /// One error for every component with a strict question inside; true if there is none.

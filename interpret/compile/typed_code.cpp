@@ -234,7 +234,7 @@ ExprId TypedCode::similarity(const Syntax& syntax, std::vector<ExprId> operands)
   const Dimension tolerance = at(expr.args[2]).dimension;
   if (!tolerance.is_plain())
     return fail(Code::R230, syntax.children[2].span,
-                fmt::format("after 'by' stands a share such as 10 %, not {}; for a fixed distance "
+                fmt::format("after 'by' comes a share such as 10 %, not {}; for a fixed distance "
                             "write abs(x - y) <= ...",
                             describe(tolerance)));
   return add(std::move(expr));

@@ -146,7 +146,7 @@ class Lexer {
 
   std::optional<Token> parameter() {
     const std::size_t length = word_length(1);
-    if (length == 0) return fail(1, "after '$' stands the name of a parameter");
+    if (length == 0) return fail(1, "after '$' comes the name of a param");
     Token token = make(Token::Kind::parameter, length + 1);
     token.text.remove_prefix(1);
     return token;
@@ -168,8 +168,8 @@ class Lexer {
     const std::string_view shown = text_.substr(at_, length);
     if (shown == "\"" || shown == "'")
       return fail(length,
-                  "quotes have no meaning in an expression; words stand without them: "
-                  "write 'sense = hole'");
+                  "quotes have no meaning in an expression; words are written without them: write "
+                  "'sense = hole'");
     for (const Foreign& foreign : kForeignCharacters)
       if (shown == foreign.text)
         return fail(length, fmt::format("'{}': {}", foreign.text, foreign.advice));

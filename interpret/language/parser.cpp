@@ -91,7 +91,7 @@ std::string foreign_word(std::string_view word) {
     return "a range is written 'in lo .. hi', as in 'a in 1 m .. 2 m'";
   if (word == "like" || word == "LIKE") return "write '='";
   if (word == "then" || word == "if")
-    return "conditions stand under 'require', and the label under 'label'";
+    return "conditions go under 'require', the label under 'label'";
   return "";
 }
 

@@ -61,7 +61,7 @@ class ListMerge {
         base_->items[beneath] = std::move(item);
     } else if (beneath == npos) {
       findings_->error(Code::R246, item.span,
-                       "nothing of this id is beneath that could be removed");
+                       "no pack beneath has this id, so there is nothing to remove");
     } else {
       removed_.insert(beneath);
     }
@@ -158,9 +158,9 @@ std::optional<SourceSpan> append_pack(const YamlNode& node, std::set<std::string
                                       Source& source, const PackFinder& find_pack,
                                       Findings& findings) {
   if (!is_plain_name(node)) {
-    findings.error(Code::R246, node.span,
-                   "after 'extends' stands a pack that is built in, or a file in the same folder, "
-                   "by its name alone");
+    findings.error(
+        Code::R246, node.span,
+        "after 'extends' comes the name of a built-in pack, or of a file in the same folder");
     return std::nullopt;
   }
   auto found = find_pack(node.text);
@@ -175,12 +175,12 @@ std::optional<SourceSpan> append_pack(const YamlNode& node, std::set<std::string
     findings.error(Code::R246, node.span,
                    seen.contains(found->file) && seen.size() <= kMostBeneath + 1
                        ? "the pack extends itself"
-                       : "no more than 8 packs stand beneath one");
+                       : "a pack has no more than 8 packs beneath it");
     return std::nullopt;
   }
   const std::size_t bad = find_bad_byte(found->text);
   if (bad == std::string_view::npos) return source.append(std::move(found->file), found->text);
-  findings.error(Code::R200, node.span, "'" + node.text + "' is no UTF-8 text");
+  findings.error(Code::R200, node.span, "'" + node.text + "' is not UTF-8 text");
   return std::nullopt;
 }
 

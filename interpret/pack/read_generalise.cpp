@@ -54,7 +54,7 @@ void read_scale(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   }
   if (*from > *to)
     loader.findings.error(Code::R250, node.span,
-                          "the scale range is empty: the larger scale stands first");
+                          "the scale range is empty: the larger scale comes first");
   entry.scale_from = *from;
   entry.scale_to = *to;
 }

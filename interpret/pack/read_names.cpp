@@ -190,9 +190,9 @@ bool leads_below(const YamlNode& within, const YamlNode& all, const YamlEntry& s
     return false;
   loader.findings.error(
       Code::R207, within.span,
-      fmt::format("the relation '{}' {}: 'within' leads to one that is built in or stands above",
-                  name,
-                  name == self.key.text ? "needs itself" : "stands below '" + self.key.text + "'"));
+      fmt::format(
+          "the relation '{}' {}: 'within' names one that is built in or declared above", name,
+          name == self.key.text ? "uses itself" : "is declared below '" + self.key.text + "'"));
   return true;
 }
 

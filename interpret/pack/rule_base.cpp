@@ -217,7 +217,7 @@ std::shared_ptr<const Pack> load(std::string text, std::string file, const PackF
   Findings findings(pack->source);
   const std::size_t bad = find_bad_byte(pack->source.text());
   if (bad != std::string_view::npos)
-    findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
+    findings.error(Code::R200, {bad, bad}, "this is not UTF-8 text");
   else if (const auto root = read_tree(pack->source, find_and_digest, findings))
     read_pack(*root, *pack, findings);
   pack->sha256 = std::move(digest);

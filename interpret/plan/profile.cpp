@@ -155,7 +155,7 @@ class ProfileReader {
     if (!t.is_chain())
       findings_.error(
           Code::R274, sizes->span,
-          fmt::format("the sizes are no chain: c <= b < a and a*a > area > a*b must hold; "
+          fmt::format("the sizes do not form a chain: c <= b < a and a*a > area > a*b must hold; "
                       "here c = {}, b = {}, a = {}, a*a = {}, area = {}, a*b = {}",
                       t.c_m, t.b_m, t.a_m, t.a_m * t.a_m, t.area_m2, t.a_m * t.b_m));
   }
@@ -235,7 +235,7 @@ Checked<Profile> load_profile(std::string text, std::string file, const std::str
   Findings findings(source);
   const std::size_t bad = rules::find_bad_byte(source.text());
   if (bad != std::string_view::npos)
-    findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
+    findings.error(Code::R200, {bad, bad}, "this is not UTF-8 text");
   else if (const auto root = rules::parse_yaml({0, source.text().size()}, findings))
     ProfileReader(findings, profile).read(*root, level);
   out.issues = findings.issues();

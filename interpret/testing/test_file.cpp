@@ -192,7 +192,7 @@ class TestReader {
                            info_of(*attribute).unit != Unit::yes_no;
     if (!is_number) {
       findings().error(Code::R204, entry.key.span,
-                       "'" + entry.key.text + "' is no attribute that is a number" +
+                       "'" + entry.key.text + "' is not an attribute that is a number" +
                            did_you_mean(entry.key.text, names_of(feature_schema())));
       return;
     }
@@ -267,7 +267,7 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
   TestFile file;
   const std::size_t bad = find_bad_byte(scratch.source.text());
   if (bad != std::string_view::npos) {
-    findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
+    findings.error(Code::R200, {bad, bad}, "this is not UTF-8 text");
   } else if (const auto root = parse_yaml({0, scratch.source.text().size()}, findings)) {
     check_traps(*root, findings);
     YamlSection top(*root, "a file of tests", {"tests_for", "fixtures", "tests"}, findings);

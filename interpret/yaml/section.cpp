@@ -419,10 +419,10 @@ std::optional<SourceSpan> expression_span(const YamlNode& node, Findings& findin
   }
   const bool goes_on = node.is_plain;
   findings.error(Code::R221, node.span,
-                 goes_on ? "this goes on on the next line: an expression stands on one line, and "
-                           "several conditions are a list, each on a line after '- '"
-                         : "an expression stands on one line without escapes, so that messages can "
-                           "point into it");
+                 goes_on ? "this continues on the next line: an expression is written on one line, "
+                           "and several conditions are a list, each on a line after '- '"
+                         : "an expression is written on one line without escapes, so that messages "
+                           "can point into it");
   return std::nullopt;
 }
 

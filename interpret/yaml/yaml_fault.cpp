@@ -199,7 +199,7 @@ void YamlFaultFinder::check_plain_value(std::size_t at) {
     return scan_.report(
         {at, at + 1},
         fmt::format("a text cannot begin with '{}' unless it is in quotes{}", value.front(),
-                    is_share ? "; the unit % stands after its number" : ""),
+                    is_share ? "; the unit % comes after its number" : ""),
         {at, end}, is_share ? fmt::format("{} %", value.substr(1)) : quoted);
   }
   const std::size_t colon = scan_.find_colon(at, end);
@@ -335,7 +335,7 @@ void YamlFaultFinder::report_column(std::size_t at, bool is_list, std::string_vi
                     name));
   if (nearest->column == column)
     return scan_.report({at, at + name.size()},
-                        fmt::format("'{}' cannot begin here: what is above it goes on", name));
+                        fmt::format("'{}' cannot begin here: what is above it continues", name));
   const std::string what = is_list ? "this list item" : fmt::format("'{}'", name);
   const std::string above =
       is_list ? "the item above it" : fmt::format("'{}' above it", nearest->name);

@@ -191,7 +191,7 @@ void TreeBuilder::add_key(Open& map, YamlNode key) {
   if (key.kind != YamlNode::Kind::scalar) {
     findings_->error(Code::R211, key.span, "a key is a text");
   } else if (!map.keys.insert(key.text).second) {
-    findings_->error(Code::R202, key.span, "the key '" + key.text + "' stands here twice");
+    findings_->error(Code::R202, key.span, "the key '" + key.text + "' occurs here twice");
   }
   map.key = std::move(key);
 }

@@ -29,48 +29,48 @@
   X(E113, 0, "Not valid XML") \
   X(E114, 0, "A document type declaration") \
   X(E115, 0, "CityGML version") \
-  X(E116, 0, "Another header") \
-  X(E117, 0, "The run cannot go on") \
+  X(E116, 0, "A different header") \
+  X(E117, 0, "The run cannot be resumed") \
   X(E118, 0, "Shards do not make up the whole") \
   X(E119, 0, "A line of a series' log that cannot be read") \
-  X(E120, 0, "A file that is no level of a series") \
+  X(E120, 0, "A file that is not a level of a series") \
   X(E121, 0, "A relation to a feature that is not in the table") \
   X(E123, 0, "A worker was ended") \
-  X(E124, 0, "An earlier run that nothing is taken from") \
+  X(E124, 0, "An earlier run that cannot be reused") \
   X(E125, 0, "Not a scale") \
   X(E126, 0, "The input is noisy") \
   X(E127, 0, "There is no building to show") \
-  X(E128, 0, "Nothing to show after") \
+  X(E128, 0, "No building to show after the change") \
   X(E129, 0, "A building that is in none of the models") \
-  X(E130, 0, "The selection takes nothing") \
+  X(E130, 0, "The selection matches nothing") \
   X(E131, 0, "Nothing to compare with the truth") \
   X(E132, 0, "A file of a series was changed") \
   X(E133, 0, "A log of a series without checks") \
   X(E134, 0, "Nothing to work on") \
-  X(E140, 0, "Nothing that can be added") \
+  X(E140, 0, "Something that cannot be added") \
   X(E141, 0, "No room for what is added") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
-  X(E203, 0, "A vertex that is not there") \
+  X(E203, 0, "A vertex that does not exist") \
   X(E204, 0, "Unknown geometry type") \
   X(E205, 0, "No geometry at this level of detail") \
   X(E206, 0, "Geometry templates are not read") \
-  X(E207, 0, "The id stands twice") \
+  X(E207, 0, "The id occurs twice") \
   X(E208, 0, "Semantics do not fit the geometry") \
   X(E209, 0, "No building, or a building without geometry") \
-  X(E210, 0, "Coordinates that are not") \
+  X(E210, 0, "Coordinates that cannot be read") \
   X(E211, 0, "A link that leads out of the building") \
-  X(E212, 0, "Links in a circle") \
+  X(E212, 0, "Links that form a cycle") \
   X(E213, 0, "Coordinates in degrees") \
-  X(E214, 0, "Geometry that is not judged") \
+  X(E214, 0, "Geometry that is not checked") \
   X(E301, 301, "Too few polygons") \
   X(E302, 302, "The shell is not closed") \
   X(E303, 303, "Polygons that do not pair up at an edge") \
   X(E304, 0, "Degenerate polygons were dropped") \
   X(E305, 403, "An interior shell outside its solid") \
-  X(E307, 307, "Polygons that cannot be oriented alike") \
-  X(E308, 307, "Turned round") \
-  X(E309, 0, "Facets were swallowed") \
+  X(E307, 307, "Polygons that cannot be oriented consistently") \
+  X(E308, 307, "Polygons were turned round") \
+  X(E309, 0, "Facets were absorbed") \
   X(E310, 0, "A shell without volume") \
   X(E311, 101, "A ring of fewer than three distinct points") \
   X(E312, 102, "A vertex twice in a row") \
@@ -78,9 +78,9 @@
   X(E314, 103, "A ring that is not closed") \
   X(E315, 0, "Polygons left out of the solid") \
   X(E316, 0, "Holes were closed") \
-  X(E317, 0, "Vertices put into edges, doubles dropped") \
+  X(E317, 0, "Vertices inserted into edges, duplicates dropped") \
   X(E318, 0, "A repaired solid that is not valid") \
-  X(E319, 0, "Supposed faces") \
+  X(E319, 0, "Faces that are assumed") \
   X(E320, 0, "Installations left out of the solid") \
   X(E341, 104, "A ring that crosses itself") \
   X(E342, 201, "Rings that cross") \
@@ -91,7 +91,7 @@
   X(E347, 206, "An inner ring outside the outer one") \
   X(E348, 207, "An inner ring in another one") \
   X(E349, 208, "An inner ring that runs the same way round as the outer one") \
-  X(E350, 303, "Polygons that meet in a point only") \
+  X(E350, 303, "Polygons that meet only in a point") \
   X(E351, 305, "A shell in pieces") \
   X(E352, 306, "A shell that crosses itself") \
   X(E353, 401, "Shells of a solid that cross") \
@@ -99,7 +99,7 @@
   X(E355, 404, "A solid in pieces") \
   X(E356, 501, "Solids that overlap") \
   X(E357, 502, "A solid given twice") \
-  X(E358, 503, "Solids that do not hang together") \
+  X(E358, 503, "Solids that are not connected") \
   X(E359, 601, "Building parts that overlap") \
   X(E501, 0, "The building is too large") \
   X(E502, 0, "The work budget is used up") \
@@ -110,11 +110,11 @@
   X(E507, 0, "Memory is used up") \
   X(E601, 0, "The output cannot be written") \
   X(E602, 0, "A file is named twice") \
-  X(E604, 0, "A file is there already") \
+  X(E604, 0, "The file exists already") \
   X(E901, 0, "A fault of oriel's own") \
   X(G401, 0, "A feature is not omitted") \
-  X(G402, 0, "Nothing closed would be left") \
-  X(G403, 0, "An operator has nothing to put back") \
+  X(G402, 0, "No closed solid would be left") \
+  X(G403, 0, "An operator's result does not fit") \
   X(G404, 0, "An open building is not redrawn") \
   X(G405, 0, "An operation was undone") \
   X(G406, 0, "No block can be made") \
@@ -122,19 +122,19 @@
   X(G408, 0, "A change at a smaller scale is left out") \
   X(G409, 0, "A level and the log of its series do not fit") \
   X(G410, 0, "Not valid as it would be written") \
-  X(G411, 0, "It carries what stays") \
+  X(G411, 0, "It carries a part that stays") \
   X(G412, 0, "The building would reach further") \
-  X(G413, 0, "What is written is not valid, as what was read") \
-  X(G414, 0, "What makes no series") \
+  X(G413, 0, "Neither input nor output is valid") \
+  X(G414, 0, "Options that allow no series") \
   X(G415, 0, "Edges shorter than asked for") \
   X(G416, 0, "Gaps narrower than asked for") \
-  X(G417, 0, "What runs through itself is mended first") \
+  X(G417, 0, "A solid that passes through itself is mended first") \
   X(G418, 0, "A piece would be torn off") \
-  X(G419, 0, "A building that was not valid is drawn anew") \
+  X(G419, 0, "A building that was not valid is redrawn") \
   X(G420, 0, "An open building is repaired first") \
   X(R200, 0, "The pack cannot be read") \
   X(R201, 0, "Not YAML") \
-  X(R202, 0, "A key stands twice") \
+  X(R202, 0, "A key occurs twice") \
   X(R203, 0, "Anchors, aliases, tags, several documents") \
   X(R204, 0, "Unknown attribute") \
   X(R205, 0, "Unknown class") \
@@ -155,19 +155,19 @@
   X(R231, 0, "A unit is missing") \
   X(R232, 0, "Wrong type in an expression") \
   X(R233, 0, "Unknown unit") \
-  X(R234, 0, "A word that a text never is") \
+  X(R234, 0, "A word that a text is never equal to") \
   X(R235, 0, "mm@map or `scale` outside `generalise:`") \
   X(R236, 0, "`self` or `other` out of reach") \
-  X(R240, 0, "An id stands twice") \
+  X(R240, 0, "An id occurs twice") \
   X(R241, 0, "A param that is never used") \
   X(R242, 0, "A macro that is never used") \
-  X(R243, 0, "Rules that wait for each other") \
-  X(R244, 0, "A circle in the class tree") \
+  X(R243, 0, "Rules that depend on each other") \
+  X(R244, 0, "A cycle in the class tree") \
   X(R245, 0, "A rule for a subclass does not ask for its predicate") \
-  X(R246, 0, "`extends` that leads nowhere") \
-  X(R247, 0, "A macro that needs itself") \
+  X(R246, 0, "`extends` that cannot be resolved") \
+  X(R247, 0, "A macro that uses itself") \
   X(R248, 0, "A relation that is never used") \
-  X(R249, 0, "What a relation cannot ask") \
+  X(R249, 0, "A condition that a relation cannot have") \
   X(R250, 0, "Not a scale") \
   X(R251, 0, "Unknown operator") \
   X(R253, 0, "Unknown group") \
@@ -182,7 +182,7 @@
   X(R271, 0, "`gap(members)` without members") \
   X(R272, 0, "Sizes of a profile that decide nothing, or twice") \
   X(R273, 0, "A class of a profile that the pack does not have") \
-  X(R274, 0, "Sizes of a profile that are no chain") \
+  X(R274, 0, "Sizes of a profile that do not form a chain") \
   X(R275, 0, "No such level of a profile")
 // clang-format on
 

@@ -134,7 +134,7 @@ class FeatureRemover {
       if (has_hosted_that_stays(id)) return "what lies in it cannot be removed";
       return std::nullopt;
     }
-    if (f.is_uncut) return "no cut frees it: only its ring is known";
+    if (f.is_uncut) return "no single cut isolates it: only its ring is known";
     std::vector<PlaneSide> sides;
     for (const PlaneId plane : f.planes) {
       const auto side = world_.planes.find(segmentation_.planes[plane.index()]);
@@ -184,14 +184,13 @@ class FeatureRemover {
       const auto region = region_around(section, f);
       if (!region) continue;
       const detail::Lump lump = detail::LumpFinder(body, section).find(*region);
-      if (!lump.is_finite || !lump.is_sound || lump.volume <= 0)
-        return "its cut does not close any more";
+      if (!lump.is_finite || !lump.is_sound || lump.volume <= 0) return "its cut no longer closes";
       Boundary& trial = copy_of(body);
       std::vector<PointId> touched;
       const auto caps = imprint(trial, section, lump, touched);
       return take(body, trial, caps, f);
     }
-    return "its cut is not found any more";
+    return "its cut is no longer found";
   }
 
   /// The region of the feature's kind with its cap point inside.
@@ -222,7 +221,7 @@ class FeatureRemover {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
         return take(body, copy_of(body), patch.caps, f);
       }
-    return "its cut is not found any more";
+    return "its cut is no longer found";
   }
 
   [[nodiscard]] bool has_cap_at(const detail::Patch& patch, Vec3 point) const {
@@ -255,7 +254,7 @@ class FeatureRemover {
   std::optional<std::string> take(Boundary& body, Boundary& trial,
                                   const std::vector<detail::CutCap>& caps, const Feature& f) {
     const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
-    if (!carved) return "its cut does not close any more";
+    if (!carved) return "its cut no longer closes";
     if (!is_within(carved->lump, f)) return "its cut would take more than the feature";
     if (takes_others_along(carved->lump, trial, f)) return "a feature that stays would go with it";
     std::swap(body, trial);
@@ -339,7 +338,7 @@ class FeatureRemover {
   std::optional<std::string> fill_cavity(const Feature& f) {
     for (Boundary& body : bodies_)
       if (detail::fill_cavity(body, f.box)) return std::nullopt;
-    return "its shell is not found any more";
+    return "its shell is no longer found";
   }
 
   [[nodiscard]] Solid remaining_solid() const {

@@ -94,10 +94,11 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
     issues.push_back(building_issue(
         Severity::note, Code::E317, building.id,
         fmt::format(
-            "{} put into {}; {} dropped", counted(report.t_vertices, "vertex was", "vertices were"),
+            "{} inserted into {}; {} dropped",
+            counted(report.t_vertices, "vertex was", "vertices were"),
             agreeing(report.t_vertices, "the edge that it lies on", "the edges that they lie on"),
-            counted(report.duplicates.size(), "polygon is there twice and was",
-                    "polygons are there twice and were"))));
+            counted(report.duplicates.size(), "duplicate polygon was",
+                    "duplicate polygons were"))));
   if (is_open) return;
   if (report.turned > 0)
     issues.push_back(

@@ -141,8 +141,8 @@ bool do_solids_overlap(const std::deque<detail::ClosedSurface>& p,
 Finding not_all_judged(std::int64_t budget) {
   Finding finding;
   finding.code = Code::E502;
-  finding.sentence =
-      fmt::format("validating used up the work budget of {} steps; the rest is not judged", budget);
+  finding.sentence = fmt::format(
+      "validating used up the work budget of {} steps; the rest is not checked", budget);
   return finding;
 }
 

@@ -53,7 +53,7 @@ std::vector<Issue> FaultyImprints::issues(const FeatureTable& table) const {
   for (const FeatureId id : ids_) {
     Issue& issue = issues.emplace_back(
         building_issue(Severity::warning, Code::G410, table.building(),
-                       "gets no outline: the wall around it would not be valid as it is written"));
+                       "gets no outline: the wall around it would not be valid as written"));
     issue.place.feature = table.id(id);
   }
   return issues;

@@ -74,7 +74,7 @@ bool can_be_valid(const Document& document, const Building& building, const Soli
 
 Issue invalid_before(const Building& building, const std::string& why) {
   return building_issue(Severity::error, Code::G413, building.id,
-                        "is not valid as it is written, as it was not when it was read: " + why);
+                        "is not valid as written, and was not valid in the input: " + why);
 }
 
 OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
@@ -85,7 +85,7 @@ OutputCheck check_redrawn(const Document& document, const Building& building, co
   why.erase(0, why.find(": ") + 2);
   if (!can_be_valid(document, building, own)) return {invalid_before(building, why)};
   check.fault->code = Code::G410;
-  check.fault->sentence = "would not be valid as it is written: " + why;
+  check.fault->sentence = "would not be valid as written: " + why;
   return check;
 }
 
@@ -119,7 +119,7 @@ Work drawing_work(std::int64_t budget) {
 
 Issue not_all_drawn(const Building& building, const Work& work) {
   return used_up(building.id, work.budget(), "generalising",
-                 "what was not carried out by then stays as it is");
+                 "what was not carried out by then stays unchanged");
 }
 
 SolidValidator judge_as_written(const Document& document, const Building& building,

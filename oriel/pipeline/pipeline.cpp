@@ -40,7 +40,7 @@ Issue supposed_faces(const Building& building, std::span<const Cap> faces) {
     largest = std::max(largest, face.area_m2);
   }
   return building_issue(Severity::warning, Code::E319, building.id,
-                        fmt::format("{} supposed, {:.2f} m² together, the largest {:.2f} m²: "
+                        fmt::format("{} assumed, {:.2f} m² together, the largest {:.2f} m²: "
                                     "features are found as if {} there",
                                     counted(faces.size(), "missing face was", "missing faces were"),
                                     sum, largest, agreeing(faces.size(), "it were", "they were")));
@@ -60,7 +60,7 @@ std::vector<Issue> open_up(const Building& building, const Tolerances& tolerance
                       ? std::nullopt
                       : supposed_solid(building, tolerances, options.budget);
   if (supposed) {
-    continue_with("; faces are supposed where they are missing", out.issues);
+    continue_with("; missing faces are assumed", out.issues);
     append(out.issues, std::move(supposed->issues));
     of_features.push_back(supposed_faces(building, supposed->faces));
     out.solid = std::move(supposed->solid);
@@ -81,8 +81,8 @@ Building without_hints(Building building) {
 Issue noise_note(const Building& building, const Tolerances& fitted) {
   return building_issue(
       Severity::note, Code::E126, building.id,
-      fmt::format("corners lie up to {:.1f} mm off the planes of nine in ten polygons: what is "
-                  "within {:.1f} mm is one plane (--plane-offset)",
+      fmt::format("corners lie up to {:.1f} mm off the planes of nine in ten polygons: points "
+                  "within {:.1f} mm of a plane count as on it (--plane-offset)",
                   1e3 * noise_of(building), 1e3 * fitted.plane_offset_m));
 }
 
@@ -129,10 +129,10 @@ Issue left_out_note(const Building& building) {
   const std::size_t count = building.installations.size();
   return building_issue(
       Severity::note, Code::E320, building.id,
-      fmt::format("is no closed solid with {} that {} on it; its solid is made "
-                  "without",
+      fmt::format("does not form a closed solid together with {} that {} on it; its solid is made "
+                  "without {}",
                   count == 1 ? "the installation" : "the " + counted(count, "installation"),
-                  agreeing(count, "stands", "stand")));
+                  agreeing(count, "stands", "stand"), agreeing(count, "it", "them")));
 }
 
 int count_lumps(const Solid& solid) {

@@ -26,13 +26,12 @@ Issue repair_warning(const Building& building, const PipelineResult& result) {
   const auto findings = validate(building);
   const std::string why = findings.empty()
                               ? "its surface"
-                              : fmt::format("was not valid as it was read ({} {}) and",
+                              : fmt::format("was not valid in the input ({} {}) and",
                                             to_string(findings[0].code), findings[0].sentence);
-  return building_issue(
-      Severity::warning, Code::G417, building.id,
-      fmt::format("{} would not be valid as it is written: it is redrawn from the boundary of its "
-                  "inside, with {} cut",
-                  why, counted(result.repair.cut, "polygon")));
+  return building_issue(Severity::warning, Code::G417, building.id,
+                        fmt::format("{} would not be valid as written: it is redrawn from the "
+                                    "boundary of its interior, with {} cut",
+                                    why, counted(result.repair.cut, "polygon")));
 }
 
 /// What repair() does: with crossings cut, and if that is not valid as it is written mended, or
@@ -56,8 +55,8 @@ Issue mended_first(const Building& building, const RepairReport& report) {
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
   return building_issue(
       Severity::warning, Code::G420, building.id,
-      fmt::format("is open as it was read: it is repaired first, with {} cut, {} left out "
-                  "and {} closed ({:.2f} m²)",
+      fmt::format("is open in the input and is repaired first, with {} cut, {} left out and {} "
+                  "closed ({:.2f} m²)",
                   counted(report.cut, "polygon"), report.dangling.size() + report.inner.size(),
                   counted(report.caps.size(), "hole"), closed_m2));
 }
@@ -115,7 +114,7 @@ Issue stays_open(const Building& building) {
                                       "redraw; expected lod 1 or higher",
                                       building.lod));
   return building_issue(Severity::error, Code::G404, building.id,
-                        "is open, and cannot be repaired: there is no solid to redraw");
+                        "is open and cannot be repaired: there is no solid to redraw");
 }
 
 }  // namespace oriel

@@ -75,7 +75,7 @@ std::map<double, std::string> levels_of(const std::string& name) {
   if (levels.empty())
     throw unusable(name, Code::E101, "has no levels: there is no " + name + ".1-N.city.json");
   if (endings.size() > 1)
-    throw unusable(name, Code::G409, "has levels of two series, .city.json and .city.jsonl");
+    throw unusable(name, Code::G409, "has the levels of two series, .city.json and .city.jsonl");
   return levels;
 }
 
@@ -93,18 +93,17 @@ std::vector<Issue> check_seal(const std::string& log, double scale, const std::s
     Issue issue;
     issue.severity = Severity::warning;
     issue.code = Code::E133;
-    issue.sentence = "has no checks: whether log and levels are what was written is not known";
+    issue.sentence = "has no checks: a change to the log or its levels would not be noticed";
     issue.place.file = log;
     return {issue};
   }
   const auto written = seal.levels.find(fmt::format("{}", scale));
   if (written == seal.levels.end())
-    throw unusable(level, Code::E132, fmt::format("is no level of the series that {} is of", log));
+    throw unusable(level, Code::E132, fmt::format("is not a level of the series of {}", log));
   constexpr auto kWhole = std::numeric_limits<std::uint64_t>::max();
   if (PartialFiles::mark_of(level, kWhole).sha256 != written->second)
-    throw unusable(
-        level, Code::E132,
-        fmt::format("is not the file that was written with {}: it has another hash", log));
+    throw unusable(level, Code::E132,
+                   fmt::format("is not the file that was written with {}: its hash differs", log));
   return {};
 }
 
@@ -134,7 +133,7 @@ class LevelMover {
     }
     if (log_.next() == nullptr) return true;
     Issue issue = building_issue(Severity::error, Code::E120, log_.next()->building,
-                                 "is no level of a series: it has no such building");
+                                 "is not a level of a series: it has no such building");
     issue.place.file = file;
     issues_.push_back(std::move(issue));
     return false;

@@ -75,7 +75,7 @@ TEST_SUITE("cli") {
     const std::string text = replaced(residential(), "  bay:      {}\n", "  bay: {}\n  bay: {}\n");
     const auto twin = place_of(text, "bay: {}\n  bay");  // the line before
     const int line = std::stoi(twin.substr(1)) + 1;
-    check_refused(text, fmt::format(":{}:3: R202 the key 'bay' stands here twice", line));
+    check_refused(text, fmt::format(":{}:3: R202 the key 'bay' occurs here twice", line));
   }
 
   TEST_CASE("a pack that is missing is refused with the names of those there are") {

@@ -185,9 +185,8 @@ TEST_SUITE("cli") {
     const Outcome drawn = run(
         {"generalise", input, "--scale", "1:2500", "-o", out, "--features", folder / "f.jsonl"});
     CHECK(drawn.exit == 0);
-    CHECK(
-        drawn.says("warning: x: G420 is open as it was read: it is repaired first, with 6 "
-                   "polygons cut"));
+    CHECK(drawn.says(
+        "warning: x: G420 is open in the input and is repaired first, with 6 polygons cut"));
     CHECK(drawn.says("1 of 1 building generalised to 1:2500"));
     CHECK(run({"validate", out}).exit == 0);
     const auto types = types_of(out, "x");

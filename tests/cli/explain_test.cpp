@@ -573,7 +573,7 @@ TEST_SUITE("cli") {
     CHECK(nothing.says("E127 there is no building to show"));
     const Outcome other = run({"view", sample("house"), "--after", sample("row"), "-o", page});
     CHECK(other.exit == 5);
-    CHECK(other.says("E128 has none of the buildings that it should show after"));
+    CHECK(other.says("E128 has none of the buildings that are shown"));
     const Outcome missing = run({"view", sample("house"), "--after", "no.city.json", "-o", page});
     CHECK(missing.exit == 5);
     CHECK(missing.says("no.city.json: E101"));

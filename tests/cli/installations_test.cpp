@@ -70,7 +70,7 @@ TEST_SUITE("cli") {
     const ordered_json city = cube_with_shaft(5000);
     const Outcome judged = run({"validate", "-", "--from", "cityjson", "-v"}, {.in = city.dump()});
     CHECK(judged.exit == 0);
-    CHECK(judged.says("E214 1 object of type BuildingInstallation with geometry is not judged"));
+    CHECK(judged.says("E214 1 object of type BuildingInstallation with geometry is not checked"));
     const Outcome repaired =
         run({"repair", "-", "--from", "cityjson", "-o", "-"}, {.in = city.dump()});
     CHECK(repaired.exit == 0);

@@ -314,7 +314,7 @@ TEST_SUITE("cli") {
     };
     const Outcome without = told({}), with = told({"--profile", "map"});
     const std::string text =
-        "note: hip: G415 has 1 edges below 6.25 m of parts that stay as they were";
+        "note: hip: G415 has 1 edges below 6.25 m of parts that stay unchanged";
     CHECK(without.says(text));
     CHECK(with.says(text));
   }

@@ -88,7 +88,7 @@ TEST_SUITE("cli") {
     const Outcome refused = run({"rules", "new", folder / "thing"});
     CHECK(refused.exit == 2);
     CHECK(refused.says("E604"));
-    CHECK(refused.says("thing.test.yaml is there already"));
+    CHECK(refused.says("thing.test.yaml exists already"));
     CHECK(folder.names() == std::vector<std::string>{"thing.test.yaml"});
     CHECK(bytes_of(folder / "thing.test.yaml") == "mine");
     for (const char* name : {"Solar", "solar-panel", "1st", "and", ""}) {

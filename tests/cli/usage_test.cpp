@@ -36,15 +36,15 @@ TEST_SUITE("cli") {
   }
 
   TEST_CASE("what was probably meant by an unknown command is said") {
-    check_usage({"lable"}, "'lable' is no command of oriel; did you mean 'label'?\n");
-    check_usage({"classify", "x"}, "'classify' is no command of oriel; did you mean 'label'?\n");
-    check_usage({"lint"}, "'lint' is no command of oriel; did you mean 'rules check'?\n");
-    check_usage({"help"}, "'help' is no command of oriel; did you mean '--help'?\n");
+    check_usage({"lable"}, "'lable' is not a command of oriel; did you mean 'label'?\n");
+    check_usage({"classify", "x"}, "'classify' is not a command of oriel; did you mean 'label'?\n");
+    check_usage({"lint"}, "'lint' is not a command of oriel; did you mean 'rules check'?\n");
+    check_usage({"help"}, "'help' is not a command of oriel; did you mean '--help'?\n");
     check_usage({"rules", "chek", "p"},
-                "'chek' is no command of oriel rules; did you mean 'check'?\n");
+                "'chek' is not a command of oriel rules; did you mean 'check'?\n");
     check_usage({"rules", "lint", "p"},
-                "'lint' is no command of oriel rules; did you mean 'check'?\n");
-    check_usage({"frobnicate"}, "'frobnicate' is no command of oriel\n");
+                "'lint' is not a command of oriel rules; did you mean 'check'?\n");
+    check_usage({"frobnicate"}, "'frobnicate' is not a command of oriel\n");
   }
 
   TEST_CASE("what was probably meant by an unknown option is said") {
@@ -80,7 +80,7 @@ TEST_SUITE("cli") {
     for (const std::string scale :
          {"1:0", "abc", "2:3", "11:5", "1:", "", "1:-5", "1:0.5", "1:inf", "1:nan", "1:2000x"})
       check_usage({"generalise", sample("hip"), "--scale", scale, "-o", folder / "out.city.json"},
-                  "'" + scale + "' is no scale");
+                  "'" + scale + "' is not a scale");
     CHECK(folder.names().empty());
     for (const std::string scale : {"1:2000", "1 : 2000", "2000", "1:2e3"})
       CHECK(run({"generalise", sample("hip"), "--scale", scale, "-o", "-"}).exit == 0);
@@ -120,8 +120,9 @@ TEST_SUITE("cli") {
   TEST_CASE("a stream is not written as one file") {
     const Folder folder;
     const std::string lines = folder.write("in.city.jsonl", cube_lines({"a"}));
-    check_usage({"label", lines, "-o", folder / "out.city.json"}, "cityjsonseq is not written as");
-    check_usage({"label", sample("hip"), "-o", folder / "out.city.jsonl"}, "is not written as");
+    check_usage({"label", lines, "-o", folder / "out.city.json"},
+                "cityjsonseq cannot be written as");
+    check_usage({"label", sample("hip"), "-o", folder / "out.city.jsonl"}, "cannot be written as");
   }
 
   TEST_CASE("stdin is read only once") {

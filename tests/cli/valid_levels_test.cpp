@@ -357,7 +357,7 @@ TEST_SUITE("cli") {
     const Outcome made = run({"generalise", folder.write("cubes.city.json", city.dump()),
                               "--series", "1:500,1:2500", "-o", folder / "s"});
     CHECK(made.exit == 3);
-    CHECK(made.says("G410 is no series: two facets have the same outer ring"));
+    CHECK(made.says("G410 is not a series: two facets have the same outer ring"));
     CHECK(!made.says("E901"));
     CHECK(made.says("1 of 2 buildings drawn at 2 scales"));
   }

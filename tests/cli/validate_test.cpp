@@ -117,7 +117,7 @@ TEST_SUITE("cli") {
       CHECK(none.says("E214 2 objects of type " + type));
       CHECK(none.says("a, b"));
       CHECK(none.says("E134"));
-      CHECK(none.says("0 of 0 buildings are valid; 2 other objects were not judged"));
+      CHECK(none.says("0 of 0 buildings are valid; 2 other objects were not checked"));
       city["CityObjects"]["a"]["type"] = "Building";
       const Outcome one = run({"validate", folder.write("one.city.json", city.dump())});
       CHECK(one.exit == 3);
@@ -157,8 +157,8 @@ TEST_SUITE("cli") {
         CHECK(some.out == "house: valid\n");
         CHECK(some.says("E214 2 objects of type GenericCityObject"));
         CHECK(some.says("are: g, ..."));
-        CHECK(some.says("1 of 1 building is valid; 2 other objects were not judged"));
-        CHECK(judge(members, {"--lod", "all"}).says("2 other objects were not judged"));
+        CHECK(some.says("1 of 1 building is valid; 2 other objects were not checked"));
+        CHECK(judge(members, {"--lod", "all"}).says("2 other objects were not checked"));
         CHECK(judge(members, {"--id", "house"}).exit == 0);
       }
       const Outcome none = judge(generic, {});

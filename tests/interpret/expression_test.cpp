@@ -70,7 +70,7 @@ TEST_SUITE("interpret") {
     check_fault("a + silhouette > 1 m", 13, 10, "R230 'a' is a length and 'silhouette' is an area");
     check_fault("sqrt(a) > 1 m", 9, 7, "R230 the square root of a length has no unit");
     check_fault("a ~ b by 10 cm", 18, 5,
-                "R230 after 'by' stands a share such as 10 %, not a length; for a fixed distance "
+                "R230 after 'by' comes a share such as 10 %, not a length; for a fixed distance "
                 "write abs(x - y) <= ...");
     CHECK(fault("a * b * c > 1 m3 and sqrt(silhouette) ~ a by 10 % and a / b > 1.2").empty());
   }
@@ -152,20 +152,19 @@ TEST_SUITE("interpret") {
     check_fault("a \xE2\x89\xA4 1 m", 11, 1, "R220 '\xE2\x89\xA4': write '<='");
     check_fault("a ; b", 11, 1, "R220 ';' has no meaning in an expression");
     check_fault("a > 1e999 m", 13, 5, "R220 this number is too large or too small");
-    check_fault("a > $ m", 13, 1, "R220 after '$' stands the name of a parameter");
+    check_fault("a > $ m", 13, 1, "R220 after '$' comes the name of a param");
   }
 
   TEST_CASE("expressions that no caret could point into are refused") {
     const std::string sentence =
-        "R221 an expression stands on one line without escapes, so that messages can point into "
-        "it";
+        "R221 an expression is written on one line without escapes, so that messages can point "
+        "into it";
     check_fault("\"depth \\u003c 1 m\"", 10, 1, sentence);
     check_fault("'sense = ''hole'''", 10, 1, sentence);
-    CHECK(
-        findings(pack_requiring({"depth >\n          1 m"}))
-            .starts_with("t.yaml:8:9: R221 this goes on on the next line: an expression stands on "
-                         "one line, and several conditions are a list, each on a line after '- '"
-                         "\n"));
+    CHECK(findings(pack_requiring({"depth >\n          1 m"}))
+              .starts_with(
+                  "t.yaml:8:9: R221 this continues on the next line: an expression is written on "
+                  "one line, and several conditions are a list, each on a line after '- '\n"));
     CHECK(findings(pack_requiring({"|\n          depth > 1 m"}))
               .starts_with("t.yaml:8:9: " + sentence + "\n"));
   }
@@ -197,7 +196,7 @@ TEST_SUITE("interpret") {
   TEST_CASE("macros that need themselves are refused") {
     CHECK(findings(pack_with("macros: {m: n and natural, n: m}\n"
                              "rules: [{id: w, label: window, require: m}]\n")) ==
-          "t.yaml:4:31: R247 the macro 'm' needs itself\n"
+          "t.yaml:4:31: R247 the macro 'm' uses itself\n"
           "macros: {m: n and natural, n: m}\n"
           "                              ^\n");
   }

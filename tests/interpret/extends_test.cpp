@@ -133,7 +133,8 @@ TEST_SUITE("interpret") {
     for (int i = 1; i <= 9; ++i)
       packs.write(fmt::format("p{}.yaml", i), header(fmt::format("p{}.yaml", i - 1)));
     CHECK(packs.findings("p8.yaml").empty());
-    CHECK(packs.findings("p9.yaml").find("R246 no more than 8 packs") != std::string::npos);
+    CHECK(packs.findings("p9.yaml").find("R246 a pack has no more than 8 packs") !=
+          std::string::npos);
   }
 
   TEST_CASE("nothing outside the folder of a pack is read") {
@@ -175,7 +176,7 @@ TEST_SUITE("interpret") {
                                   "  - {id: d, label: door, require: natural}\n"
                                   "  - {id: x, remove: true}\n");
     CHECK(packs.findings("upper.yaml").find("upper.yaml:6:10: R240") != std::string::npos);
-    CHECK(packs.findings("upper.yaml").find("upper.yaml:7:5: R246 nothing of this id") !=
+    CHECK(packs.findings("upper.yaml").find("upper.yaml:7:5: R246 no pack beneath has this id") !=
           std::string::npos);
   }
 }

@@ -55,9 +55,7 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("a key that stands twice is refused") {
     CHECK(findings(pack_with("rules: []\nrules: []\n")) ==
-          "t.yaml:5:1: R202 the key 'rules' stands here twice\n"
-          "rules: []\n"
-          "^~~~~\n");
+          "t.yaml:5:1: R202 the key 'rules' occurs here twice\nrules: []\n^~~~~\n");
   }
 
   TEST_CASE("anchors aliases and tags are refused") {
@@ -93,9 +91,9 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("a text that is not UTF-8 is refused at the byte") {
     CHECK(findings("schema: oriel/1\nname: b\xC3\xA4r \xE4\n")
-              .starts_with("t.yaml:2:11: R200 this is no UTF-8 text\n"));
+              .starts_with("t.yaml:2:11: R200 this is not UTF-8 text\n"));
     CHECK(findings(std::string("schema: oriel/1\n\0", 17))
-              .starts_with("t.yaml:2:1: R200 this is no UTF-8 text\n"));
+              .starts_with("t.yaml:2:1: R200 this is not UTF-8 text\n"));
     CHECK(findings("a: \xED\xA0\x80\n").starts_with("t.yaml:1:4: R200 "));
     CHECK(findings("a: \xC0\xAF\n").starts_with("t.yaml:1:4: R200 "));
   }

@@ -157,10 +157,11 @@ std::optional<Fault> CityGmlReader::State::claim_ids(const CityGmlBuilding& buil
   std::unordered_set<std::string> own;
   for (const CityGmlObject& object : building.objects)
     if (ids.contains(object.id) || !own.insert(object.id).second)
-      return Fault{Code::E207,
-                   fmt::format("the gml:id {} stands twice in the file; the building with "
-                               "the first one is read",
-                               in_quotes(object.id))};
+      return Fault{
+          Code::E207,
+          fmt::format(
+              "the gml:id {} occurs twice in the file; the building with the first one is read",
+              in_quotes(object.id))};
   ids.merge(own);
   return std::nullopt;
 }
@@ -193,7 +194,7 @@ Checked<Document> CityGmlReader::State::read_member(const XmlNode& member) {
     if (node != nullptr) result.issues.push_back(issue_at(*node, severity, id, std::move(what)));
   };
   tell(links.duplicate(), Severity::warning,
-       {Code::E207, "a gml:id stands twice in the building; nothing links to it"});
+       {Code::E207, "a gml:id occurs twice in the building; nothing links to it"});
   tell(reader.open_ring(), Severity::warning,
        {Code::E314,
         "a ring does not end where it began; it is read as if it did (val3dity 103 "

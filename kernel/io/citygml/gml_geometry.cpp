@@ -115,7 +115,7 @@ bool GmlReader::may_visit(const XmlNode& property, const XmlNode& value) {
     fault_ = XmlLinks::too_deep(property);
   else if (followed_.contains(&value))
     fail(property, Code::E212,
-         fmt::format("the link {} leads in a circle", in_quotes(property.attribute("href"))));
+         fmt::format("the link {} is part of a cycle", in_quotes(property.attribute("href"))));
   return !fault_;
 }
 
@@ -287,7 +287,7 @@ bool GmlReader::read_positions(const XmlNode& node, Context context, std::vector
   if (numbers.empty() || numbers.size() % 3 != 0 || (node.name == "pos" && numbers.size() != 3))
     return fail(node, Code::E210,
                 fmt::format("a {} of {}; expected {}", node.name, counted(numbers.size(), "number"),
-                            node.name == "pos" ? "three" : "three a point"));
+                            node.name == "pos" ? "three" : "three per point"));
   for (std::size_t i = 0; i < numbers.size(); i += 3)
     vertices.push_back(vertices_.add({numbers[i], numbers[i + 1], numbers[i + 2]}));
   return true;

@@ -5,14 +5,14 @@
 namespace oriel::detail {
 
 NodeFault XmlLinks::too_deep(const XmlNode& property) {
-  return {{Code::E503, fmt::format("{} is nested deeper than {} properties, those behind links "
-                                   "included",
-                                   property.name, kMaxDepth)},
+  return {{Code::E503,
+           fmt::format("{} is nested deeper than {} properties, counting those behind links",
+                       property.name, kMaxDepth)},
           &property};
 }
 
 NodeFault XmlLinks::too_many(const XmlNode& property) {
-  return {{Code::E212, "links to links multiply what is in the building"}, &property};
+  return {{Code::E212, "links to links repeat the building's elements too often"}, &property};
 }
 
 XmlLinks::XmlLinks(const XmlNode& member) { add(member); }
@@ -40,7 +40,7 @@ std::vector<const XmlNode*> XmlLinks::values_of(const XmlNode& property) {
                                  in_quotes(href), property.name)},
         &property};
   else if (found->second.is_twice)
-    fault_ = {{Code::E207, fmt::format("the link {} of {} names a gml:id that stands twice",
+    fault_ = {{Code::E207, fmt::format("the link {} of {} names a gml:id that occurs twice",
                                        in_quotes(href), property.name)},
               &property};
   else

@@ -206,11 +206,11 @@ std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods)
       entry.fault = {Code::E202,
                      fmt::format("is {}; expected a CityObject", found_kind(field.value))};
     else if (!type)
-      entry.fault = {Code::E201, "has no 'type', or one that is no text"};
+      entry.fault = {Code::E201, "has no 'type', or one that is not a text"};
     else if (*type != "Building" && *type != "BuildingPart")
       continue;
     else if (!ids.insert(field.key).second)
-      entry.fault = {Code::E207, "the id stands twice in 'CityObjects'; the first one is read"};
+      entry.fault = {Code::E207, "the id occurs twice in 'CityObjects'; the first one is read"};
     else
       entry.fault = list_geometries(*object, has_number_lods, entry);
     if (object) list_relatives(*object, entry);

@@ -366,13 +366,13 @@ std::optional<Fault> CityJsonReader::State::check_header(const std::string& text
       stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")));
   is_astray = facts != of.facts;
   if (!is_astray) return std::nullopt;
-  return Fault{Code::E116,
-               fmt::format("is a header {}, but that of the stream is {}", facts, of.facts)};
+  return Fault{Code::E116, fmt::format("is a header with {}; the header of the stream has {}",
+                                       facts, of.facts)};
 }
 
 std::optional<Fault> CityJsonReader::State::check_feature(dom::object root,
                                                           const SequenceHeader& of) {
-  if (is_astray) return Fault{Code::E116, "stands after a header that is not that of the stream"};
+  if (is_astray) return Fault{Code::E116, "follows a header that differs from that of the stream"};
   const auto version = member(root, "version");
   if (version && as_string(version) != of.version)
     return Fault{Code::E108, fmt::format("its 'version' is {}; the header says \"{}\"",

@@ -155,7 +155,7 @@ Checked<std::vector<LevelState>> read_level(std::string_view text, const std::st
       states.push_back(reader.state(id));
     }
   } catch (const std::exception& fault) {
-    std::string sentence = "is no level of a series: ";
+    std::string sentence = "is not a level of a series: ";
     sentence += fault.what();
     Issue issue = detail::error_in({file, 0}, {Code::E120, std::move(sentence)});
     issue.place.building = building;

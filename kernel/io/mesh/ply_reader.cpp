@@ -117,7 +117,7 @@ class PlyReader {
     if (!count || *count < 0)
       return fail(fmt::format("expected a number of elements after {}", in_quotes(element.name)));
     if (std::ranges::find(elements_, element.name, &PlyElement::name) != elements_.end())
-      return fail(fmt::format("the element {} stands here twice", in_quotes(element.name)));
+      return fail(fmt::format("the element {} occurs here twice", in_quotes(element.name)));
     element.count = *count;
     elements_.push_back(std::move(element));
     return ends_line("the number of elements");
@@ -125,7 +125,7 @@ class PlyReader {
 
   bool read_type(std::string_view type) {
     return std::ranges::find(kTypes, type) != kTypes.end() ||
-           fail(fmt::format("{} is no type of a property", in_quotes(type)));
+           fail(fmt::format("{} is not a type of a property", in_quotes(type)));
   }
 
   bool read_property() {
@@ -141,7 +141,7 @@ class PlyReader {
     property.name = word();
     if (property.name.empty()) return fail("a property without a name");
     if (elements_.back().find(property.name))
-      return fail(fmt::format("the property {} stands here twice", in_quotes(property.name)));
+      return fail(fmt::format("the property {} occurs here twice", in_quotes(property.name)));
     elements_.back().properties.push_back(std::move(property));
     return ends_line("the name of a property");
   }

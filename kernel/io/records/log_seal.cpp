@@ -51,7 +51,7 @@ class LogChecker {
     std::string line;
     while (input_.read_line(line)) {
       ++name_.line;
-      if (is_ended_) refuse("stands behind the end of the log");
+      if (is_ended_) refuse("comes after the end of the log");
       check_line(line);
     }
     if (name_.line == 0) refuse("the log is empty; one without operations has a line that says so");
@@ -68,10 +68,10 @@ class LogChecker {
     const auto parts = taken_apart(line);
     if (name_.line == 1) has_checks_ = parts.has_value() || is_end_of_log(line);
     if (!has_checks_ && !parts && !is_end_of_log(line)) return;
-    if (!parts) refuse("has no check, which the lines of this log have");
-    if (!has_checks_) refuse("has a check, which the lines before it lack");
+    if (!parts) refuse("has no check, but the other lines of this log have one");
+    if (!has_checks_) refuse("has a check, but the lines before it have none");
     if (check_of(check_, parts->rest) != parts->check)
-      refuse("is not the line that was written here: its check does not agree");
+      refuse("is not the line that was written here: its check does not match");
     check_ = parts->check;
     seal_.is_sealed = true;
     if (is_end_of_log(line))

@@ -175,7 +175,7 @@ SeriesOperation operation_in(std::string_view line, const detail::TextName& name
   try {
     return operation_of(ordered_json::parse(line));
   } catch (const std::exception& fault) {
-    std::string sentence = "is no operation of a series: ";
+    std::string sentence = "is not an operation of a series: ";
     sentence += fault.what();
     throw InputError(detail::error_in(name, {Code::E119, std::move(sentence)}));
   }

@@ -61,7 +61,7 @@ class RingWriter {
   void tell_work() const {
     if (work_.is_used_up())
       out_.issues.push_back(used_up(building_.id, work_.budget(), "finding rings",
-                                    "openings that no cut frees may be missing"));
+                                    "openings that no single cut isolates may be missing"));
   }
 
   [[nodiscard]] const Plane& plane_of(const Ring& ring) const {

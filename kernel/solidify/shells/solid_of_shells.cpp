@@ -76,7 +76,7 @@ void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh
   const int swallowed = snapped.swallowed + clusters.standing;
   if (swallowed > 0)
     report(Severity::warning, Code::E309,
-           fmt::format("{} thinner than the tolerances ({} m) and {} swallowed",
+           fmt::format("{} thinner than the tolerances ({} m) and {} absorbed",
                        counted(swallowed, "facet is", "facets are"), tolerances.plane_offset_m,
                        agreeing(swallowed, "was", "were")));
   if (solid.facets.empty())

@@ -184,10 +184,10 @@ bool are_turned_alike(const JudgedShell& shell, const ShellEdges& all, FindingLi
   }
   for (const auto& [piece, side] : sides)
     for (const int p : side[0].size() < side[1].size() ? side[0] : side[1])
-      findings.add(Defect::polygon_turned, subject_of(shell, p),
-                   fmt::format("polygon {} runs the other way round than its neighbours",
-                               number_of(shell, p)),
-                   {shell.polygons[at(p)].polygon->rings[0][0]});
+      findings.add(
+          Defect::polygon_turned, subject_of(shell, p),
+          fmt::format("polygon {} runs the opposite way to its neighbours", number_of(shell, p)),
+          {shell.polygons[at(p)].polygon->rings[0][0]});
   return false;
 }
 
@@ -445,11 +445,10 @@ bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& sh
     if (!crossed_by[p]) continue;
     const SnappedPolygon& polygon = *shell.polygons[p].polygon;
     const SnappedPolygon& other = *shell.polygons[*crossed_by[p]].polygon;
-    findings.add(
-        Defect::shell_crosses_itself, {shell.body, shell.shell, polygon.number, -1},
-        fmt::format("polygon {} meets polygon {} elsewhere than in a common vertex or edge",
-                    polygon.number, other.number),
-        {polygon.rings[0][0]});
+    findings.add(Defect::shell_crosses_itself, {shell.body, shell.shell, polygon.number, -1},
+                 fmt::format("polygon {} meets polygon {} outside a common vertex or edge",
+                             polygon.number, other.number),
+                 {polygon.rings[0][0]});
     is_good = false;
   }
   return is_good;

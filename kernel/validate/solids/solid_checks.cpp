@@ -133,7 +133,7 @@ bool do_shells_lie_well(const JudgedSolid& solid, const std::deque<ClosedSurface
   if (findings.is_used_up()) return false;
   if (pieces == 1) return true;
   findings.add(Defect::solid_in_pieces, {solid.body, -1, -1, -1},
-               fmt::format("its cavities part the interior into {} pieces", pieces),
+               fmt::format("its cavities divide the interior into {} pieces", pieces),
                first_vertex(*solid.shells[0]));
   return false;
 }
@@ -184,11 +184,10 @@ bool judge_composite(const SnappedBuilding& building, std::span<const JudgedSoli
       joined.unite(static_cast<int>(pair.p), static_cast<int>(pair.q));
   for (std::size_t i = 1; i < solids.size(); ++i)
     if (joined.find(static_cast<int>(i)) == static_cast<int>(i))
-      findings.add(Defect::solids_apart, {solids[i].body, -1, -1, -1},
-                   fmt::format("solid {} shares no face with the ones before it or what is joined "
-                               "to them",
-                               solids[i].body),
-                   first_vertex(*solids[i].shells[0]));
+      findings.add(
+          Defect::solids_apart, {solids[i].body, -1, -1, -1},
+          fmt::format("solid {} is not joined by a face to the solids before it", solids[i].body),
+          first_vertex(*solids[i].shells[0]));
   return findings.size() == before;
 }
 

@@ -100,7 +100,7 @@ TEST_SUITE("cli") {
     const std::string input = folder.write("in.city.jsonl", city(5));
     const auto arguments = label(folder, input);
     CHECK(run(arguments).says("5 of 5 buildings labelled"));
-    CHECK(run(arguments).says("all of it was done before"));
+    CHECK(run(arguments).says("there is nothing left to do: the run was complete"));
     folder.write("out.city.jsonl", "changed");
     CHECK(run(arguments).says("5 of 5 buildings labelled"));
     folder.write("in.city.jsonl", city(6));

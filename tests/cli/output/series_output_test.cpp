@@ -115,7 +115,7 @@ TEST_SUITE("cli") {
     const Outcome apart = run({"generalise", a, crs, "--series", "1:5000", "-o", folder / "x"});
     CHECK(apart.exit == 5);
     CHECK(apart.says("E116"));
-    CHECK(apart.says("they share no file"));
+    CHECK(apart.says("they cannot share a file"));
     for (const std::string& name : folder.names()) CHECK(!name.starts_with("x"));
   }
 
@@ -158,7 +158,7 @@ TEST_SUITE("cli") {
     folder.write("in.1-500.city.json", "{}");
     const Outcome mixed = run({"generalise", "--at", "1:600", "--from", folder / "in", "-o", "-"});
     CHECK(mixed.exit == 5);
-    CHECK(mixed.says("G409 has levels of two series"));
+    CHECK(mixed.says("G409 has the levels of two series"));
   }
 
   TEST_CASE("a series of another level of detail than the highest goes both ways") {
@@ -315,12 +315,12 @@ TEST_SUITE("cli") {
             run({"generalise", sample("block"), "--series", "1:500," + scale, "-o", out}),
             run({"generalise", "--at", scale, "--from", folder / "x", "-o", out})}) {
         CHECK(outcome.exit == 2);
-        CHECK(outcome.says("E125 '" + scale + "' is no scale"));
+        CHECK(outcome.says("E125 '" + scale + "' is not a scale"));
       }
     }
     const Outcome twice = run({"generalise", sample("block"), "--series", "1:500,500", "-o", out});
     CHECK(twice.exit == 2);
-    CHECK(twice.says("--series: E125 the scale 1:500 stands twice"));
+    CHECK(twice.says("--series: E125 the scale 1:500 is given twice"));
     CHECK(folder.names().empty());
   }
 

@@ -126,7 +126,7 @@ TEST_SUITE("cli") {
     twice.push_back(folder / "shards/000002.city.jsonl");
     CHECK(merge(twice, list, out).says("E118 is the same shard as"));
     twice.back() = sample("hip");
-    CHECK(merge(twice, list, out).says("E118 is no shard of"));
+    CHECK(merge(twice, list, out).says("E118 is not a shard of"));
     CHECK(!std::filesystem::exists(out));
   }
 
@@ -162,7 +162,7 @@ TEST_SUITE("cli") {
                   .exit == 0);
       arguments.push_back(stem + ".city.jsonl");
     }
-    CHECK(run(arguments).says("was not made of shard 000000"));
+    CHECK(run(arguments).says("was not made from shard 000000"));
     for (const std::string& name : names)
       arguments.insert(arguments.end(), {"--through", folder / ("done-" + name)});
     const Outcome outcome = run(arguments);

@@ -114,6 +114,6 @@ TEST_SUITE("generalise") {
     };
     CHECK(reason_of(keeping, judging(kAlwaysValid)) ==
           "cannot remove the narrow facet: it is of a feature that stays");
-    CHECK(reason_of(order(), {}) == "whether the building would still be valid is not asked");
+    CHECK(reason_of(order(), {}) == "whether the building would still be valid was not checked");
   }
 }

@@ -37,11 +37,11 @@ TEST_SUITE("interpret") {
                    "  - {id: o, label: opening, require: sense = hole}\n"
                    "  - {id: d, label: dormer, require: exists(contains where is window)}\n"
                    "  - {id: w, label: window, require: self is opening and host is dormer}\n") ==
-          "t.yaml:6:59: R243 these rules wait for each other: 'dormer' asks for 'window' "
+          "t.yaml:6:59: R243 these rules depend on each other: 'dormer' asks for 'window' "
           "(t.yaml:6:59), 'window' asks for 'dormer' (t.yaml:7:57); a label is decided before it "
-          "is asked for; to cut the circle ask for 'opening' in place of 'window'\n"
-          "  - {id: d, label: dormer, require: exists(contains where is window)}\n"
-          "                                                          ^~~~~~~~~\n");
+          "is asked for; to break the cycle ask for 'opening' in place of 'window'\n  - {id: d, "
+          "label: dormer, require: exists(contains where is window)}\n                             "
+          "                             ^~~~~~~~~\n");
   }
 
   TEST_CASE("predicates that wait for each other through a negation are refused") {
@@ -50,10 +50,10 @@ TEST_SUITE("interpret") {
                                        "rules:\n"
                                        "  - {id: p, label: p, require: self is q}\n"
                                        "  - {id: q, label: q, require: not self is p}\n");
-    CHECK(found.starts_with(
-        "t.yaml:6:36: R243 these rules wait for each other: 'q' asks for 'p' (t.yaml:6:36), 'p' "
-        "asks for 'q' (t.yaml:5:32); not, none, count, unless and scores ask for what is known "
-        "already"));
+    CHECK(
+        found.starts_with("t.yaml:6:36: R243 these rules depend on each other: 'q' asks for 'p' "
+                          "(t.yaml:6:36), 'p' asks for 'q' (t.yaml:5:32); not, none, count, unless "
+                          "and scores ask for what is known already"));
   }
 
   TEST_CASE("none count unless and scores are strict as well") {
@@ -76,7 +76,7 @@ TEST_SUITE("interpret") {
                    "classes: {w: {}}\n"
                    "rules: [{id: w, label: w, require: natural, score: [{count(beside where is w): "
                    "{rise: 0 .. 3}}]}]\n")
-              .starts_with("t.yaml:4:73: R243 these rules wait for each other: 'w' asks for 'w' "
+              .starts_with("t.yaml:4:73: R243 these rules depend on each other: 'w' asks for 'w' "
                            "(t.yaml:4:73); a label is decided before it is asked for"));
   }
 

@@ -269,7 +269,7 @@ TEST_SUITE("interpret") {
     CHECK(fault("other.host is wall and natural").empty());
     CHECK(findings(pack_with("relations: {r: {within: s, where: natural}, s: {within: alike, "
                              "where: natural}}\nrules: []\n"))
-              .find(":4:25: R207 the relation 's' stands below 'r'") != std::string::npos);
+              .find(":4:25: R207 the relation 's' is declared below 'r'") != std::string::npos);
   }
 
   TEST_CASE("quantifiers that stop early say what all answers together say") {

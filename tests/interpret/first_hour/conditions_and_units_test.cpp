@@ -15,7 +15,7 @@ rules:
     label: window
     require: sense = "hole"
 )pack",
-       R"says(my_town.yaml:7:22: R220 quotes have no meaning in an expression; words stand without them: write 'sense = hole'
+       R"says(my_town.yaml:7:22: R220 quotes have no meaning in an expression; words are written without them: write 'sense = hole'
     require: sense = "hole"
                      ^
 )says"},
@@ -41,7 +41,7 @@ rules:
       sense = hole
       depth > 0.1 m
 )pack",
-       R"says(my_town.yaml:8:7: R221 this goes on on the next line: an expression stands on one line, and several conditions are a list, each on a line after '- '
+       R"says(my_town.yaml:8:7: R221 this continues on the next line: an expression is written on one line, and several conditions are a list, each on a line after '- '
       sense = hole
       ^
 )says"},

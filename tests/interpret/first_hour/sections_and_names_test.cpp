@@ -228,7 +228,7 @@ rules:
     label: window
     require: exists(door)
 )pack",
-       R"says(my_town.yaml:7:21: R207 'door' is a class and no relation; write 'contains where is door', or another relation in place of contains
+       R"says(my_town.yaml:7:21: R207 'door' is a class and not a relation; write 'contains where is door', or another relation in place of contains
     require: exists(door)
                     ^~~~
 )says"},
@@ -252,7 +252,7 @@ rules:
     label: window
     require: self is hole
 )pack",
-       R"says(my_town.yaml:7:22: R205 'hole' is no class but a word of 'sense': write 'sense = hole'
+       R"says(my_town.yaml:7:22: R205 'hole' is not a class but a word of 'sense': write 'sense = hole'
     require: self is hole
                      ^~~~
 )says"},

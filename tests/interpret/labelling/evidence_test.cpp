@@ -298,12 +298,11 @@ TEST_SUITE("interpret") {
       return refused("classes: {window: {}}\nrelations: {" + relations + "}\n" + rules);
     };
     CHECK(with_relations("row: {within: row, where: a > 1 m}") ==
-          "t.yaml:4:27: R207 the relation 'row' needs itself: 'within' leads to one that is built "
-          "in or stands above\n"
-          "relations: {row: {within: row, where: a > 1 m}}\n"
-          "                          ^~~\n");
+          "t.yaml:4:27: R207 the relation 'row' uses itself: 'within' names one that is built in "
+          "or declared above\nrelations: {row: {within: row, where: a > 1 m}}\n                    "
+          "      ^~~\n");
     CHECK(with_relations("row: {within: line, where: a > 1 m}, line: {within: row, where: b > 1 m}")
-              .starts_with("t.yaml:4:27: R207 the relation 'line' stands below 'row': "));
+              .starts_with("t.yaml:4:27: R207 the relation 'line' is declared below 'row': "));
     CHECK(with_relations("row: {within: beside, where: other is window}")
               .starts_with("t.yaml:4:42: R249 "));
     CHECK(
@@ -323,7 +322,7 @@ TEST_SUITE("interpret") {
         "rules:\n"
         "  - {id: w, label: window, require: exists(row where is door)}\n"
         "  - {id: d, label: door, require: exists(row where is window)}\n";
-    CHECK(refused(asking + beside).find("R243 these rules wait for each other") !=
+    CHECK(refused(asking + beside).find("R243 these rules depend on each other") !=
           std::string::npos);
   }
 

@@ -213,7 +213,7 @@ TEST_SUITE("interpret") {
     CHECK(found("\"1:0 ..\"").starts_with("t.yaml:4:30: R250 "));
     CHECK(found("\"1:2500 .. 1:1000\"")
               .starts_with(
-                  "t.yaml:4:30: R250 the scale range is empty: the larger scale stands first\n"));
+                  "t.yaml:4:30: R250 the scale range is empty: the larger scale comes first\n"));
   }
 
   TEST_CASE("operators are known by name and take their own arguments") {

@@ -110,10 +110,9 @@ TEST_SUITE("interpret") {
           "a second key, 'label', on one line; it goes on a line of its own");
     CHECK(fault_in("a: @b\n") ==
           "a text cannot begin with '@' unless it is in quotes; write 'a: \"@b\"'");
-    CHECK(
-        fault_in("a: %50\n") ==
-        "a text cannot begin with '%' unless it is in quotes; the unit % stands after its number; "
-        "write 'a: 50 %'");
+    CHECK(fault_in("a: %50\n") ==
+          "a text cannot begin with '%' unless it is in quotes; the unit % comes after its number; "
+          "write 'a: 50 %'");
   }
 
   TEST_CASE("a line that is too long to be read is not shown mended") {

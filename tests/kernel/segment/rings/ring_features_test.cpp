@@ -170,7 +170,7 @@ TEST_SUITE("kernel/segment") {
     const Remainder left = remove_features(s.solid, s.segmentation, {FeatureId{0}});
     CHECK(left.removed.empty());
     REQUIRE(left.refused.size() == 1);
-    CHECK(left.refused[0].reason == "no cut frees it: only its ring is known");
+    CHECK(left.refused[0].reason == "no single cut isolates it: only its ring is known");
   }
 
   TEST_CASE(
