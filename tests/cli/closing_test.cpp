@@ -200,6 +200,6 @@ TEST_SUITE("cli") {
     // What may not be closed is not repaired either.
     const std::string roofless = folder.write("roofless.city.json", cube_lacking(1).dump());
     CHECK(run({"generalise", roofless, "--scale", "1:2500", "-o", out})
-              .says("c: G404 is open, and cannot be repaired"));
+              .says("c: G404 is open and cannot be repaired"));
   }
 }

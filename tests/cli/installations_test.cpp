@@ -61,7 +61,8 @@ TEST_SUITE("cli") {
     const Outcome outcome =
         run({"label", "-", "--from", "cityjson", "-o", "-", "-v"}, {.in = city.dump()});
     CHECK(outcome.exit == 0);
-    CHECK(outcome.says("E320 is no closed solid with the installation that stands on it"));
+    CHECK(outcome.says(
+        "E320 does not form a closed solid together with the installation that stands on it"));
     CHECK(outcome.says("1 of 1 building labelled"));
     CHECK_FALSE(outcome.says("open"));
   }

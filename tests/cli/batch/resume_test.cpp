@@ -149,7 +149,7 @@ TEST_SUITE("cli") {
     other.insert(other.end(), {"--weld", "0.002"});
     const Outcome refused = run(other);
     CHECK(refused.exit == 5);
-    CHECK(refused.says("s.journal: E117 is of another command"));
+    CHECK(refused.says("s.journal: E117 belongs to another command"));
     folder.write("in.city.jsonl", replaced(text, "4000", "4001"));
     const Outcome changed = run(arguments);
     CHECK(changed.exit == 5);
