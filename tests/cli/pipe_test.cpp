@@ -91,7 +91,7 @@ TEST_SUITE("cli") {
       const Outcome outcome = run({"cat", "-"}, {.in = in});
       CHECK(outcome.exit == 3);
       CHECK(outcome.says("stdin:3: E116 is a header"));
-      CHECK(outcome.says("b: E116 stands after a header"));
+      CHECK(outcome.says("b: E116 follows a header"));
       CHECK(outcome.out == cube_lines({"a", "c"}));
       const Folder folder;
       const Outcome files = run({"cat", folder.write("a.city.jsonl", a),

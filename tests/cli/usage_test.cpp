@@ -26,7 +26,7 @@ void check_usage(const Names& arguments, const std::string& message) {
 TEST_SUITE("cli") {
   TEST_CASE("without a command nothing is done") { check_usage({}, "A subcommand is required"); }
 
-  TEST_CASE("an unknown command is named") { check_usage({"lable"}, "'lable' is no command"); }
+  TEST_CASE("an unknown command is named") { check_usage({"lable"}, "'lable' is not a command"); }
 
   TEST_CASE("an unknown option is named") {
     check_usage({"label", sample("hip"), "--bogus"}, "--bogus");
