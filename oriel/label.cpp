@@ -37,7 +37,7 @@ PipelineResult label(const Building& building, const RuleBase& rules, const Labe
   if (!options.has_output || !labelled.has_surfaces()) return labelled;
   try {
     labelled.output = annotate(building, labelled, rules, options);
-    for (Issue& issue : report_unwritten(count_labels(labelled.interpretation), rules)) {
+    for (Issue& issue : report_untyped(count_labels(labelled.interpretation), rules)) {
       issue.place.building = building.id;
       labelled.issues.push_back(std::move(issue));
     }

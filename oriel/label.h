@@ -1,7 +1,7 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
-#include "interpret/surfaces/unwritten.h"  // IWYU pragma: export
+#include "interpret/surfaces/untyped.h"  // IWYU pragma: export
 #include "kernel/model/building.h"
 #include "kernel/model/labelled_building.h"
 #include "oriel/options.h"
@@ -23,7 +23,7 @@ struct LabelOptions : PipelineOptions {
   /// is enough for labels, but not for records of features.
   bool measures_features = true;
   /// PipelineResult::output is made. False: it stays empty, and annotate() makes it later if it is
-  /// needed; report_unwritten() then says which labels it leaves out.
+  /// needed; report_untyped() then says which labels have no type there.
   bool has_output = true;
 };
 
@@ -31,11 +31,11 @@ struct LabelOptions : PipelineOptions {
 ///
 /// It does what segment() does, then runs the rules over the features (docs/rules.md) and names the
 /// surfaces. `interpretation.verdicts` has one verdict for each feature; a label that is empty
-/// means "unknown". What classes without `emit:` take from `output` is a warning R258 for each
-/// (report_unwritten). Never throws: a fault of oriel's own is an error E901 of the building. The
-/// result depends on the building, the pack and the options only: the command gives the same bytes.
-/// What write() makes of it gets the same labels again if the semantics that it has now are left
-/// aside (PipelineOptions::ignores_semantics): names of surfaces delimit imprints.
+/// means "unknown". Each class without `emit:`, whose features have no type in `output`, is a
+/// warning R258 (report_untyped). Never throws: a fault of oriel's own is an error E901 of the
+/// building. The result depends on the building, the pack and the options only: the command gives
+/// the same bytes. What write() makes of it gets the same labels again if the semantics that it has
+/// now are left aside (PipelineOptions::ignores_semantics): names of surfaces delimit imprints.
 PipelineResult label(const Building& building, const RuleBase& rules,
                      const LabelOptions& options = {});
 

@@ -178,7 +178,7 @@ class Generaliser final : public ProducingCommand {
   /// Features that are gone, by label.
   [[nodiscard]] std::map<std::string, int> removed() const { return counted(kRemoved); }
   /// Of features that stay.
-  [[nodiscard]] std::vector<Issue> unwritten() const { return outputs_.unwritten(counted(kKept)); }
+  [[nodiscard]] std::vector<Issue> untyped() const { return outputs_.untyped(counted(kKept)); }
 
  private:
   Product redraw_record(std::size_t input, const Document& document,
@@ -333,7 +333,7 @@ ExitCode work(GeneraliseArguments& arguments) {
   Generaliser command(arguments, *targets, *rules, runner);
   const ExitCode code = runner.run(command);
   if (runner.was_done()) return code;
-  report.add(command.unwritten());
+  report.add(command.untyped());
   runner.report_summary("generalised to " + targets->text(), command.removed(), " left out");
   return code;
 }

@@ -128,8 +128,8 @@ class Labeller final : public ProducingCommand {
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
 
   /// Of all that was labelled.
-  [[nodiscard]] std::vector<Issue> unwritten() const {
-    return outputs_.unwritten(runner_.state().labels);
+  [[nodiscard]] std::vector<Issue> untyped() const {
+    return outputs_.untyped(runner_.state().labels);
   }
 
  private:
@@ -179,7 +179,7 @@ ExitCode work(LabelArguments& arguments) {
   Labeller command(arguments, *rules, runner);
   const ExitCode code = runner.run(command);
   if (runner.was_done()) return code;
-  report.add(command.unwritten());
+  report.add(command.untyped());
   runner.report_summary("labelled", runner.state().labels);
   return code;
 }

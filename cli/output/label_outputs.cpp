@@ -42,9 +42,9 @@ LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& 
     throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
 }
 
-std::vector<Issue> LabelOutputs::unwritten(const std::map<std::string, int>& labels) const {
+std::vector<Issue> LabelOutputs::untyped(const std::map<std::string, int>& labels) const {
   if (!sink_ || !sink_->names_features()) return {};
-  return report_unwritten(labels, rules_);
+  return report_untyped(labels, rules_);
 }
 
 LabelledBuilding LabelOutputs::annotated(const Building& building,

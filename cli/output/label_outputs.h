@@ -49,9 +49,9 @@ class LabelOutputs {
   /// What was added is written by the next flush: nothing waits for the end of the input.
   [[nodiscard]] bool is_streaming() const;
 
-  /// What the files of buildings leave out of features with these labels (report_unwritten);
+  /// Which of these labels have no type in files of buildings (report_untyped);
   /// nothing where such files name no features.
-  [[nodiscard]] std::vector<Issue> unwritten(const std::map<std::string, int>& labels) const;
+  [[nodiscard]] std::vector<Issue> untyped(const std::map<std::string, int>& labels) const;
 
   /// What is to be written of a building that has surfaces; without features if it was rejected.
   [[nodiscard]] LabelledBuilding annotated(const Building& building,

@@ -366,7 +366,7 @@ ExitCode write_series(const LabellingArguments& arguments, const std::vector<dou
   BatchRunner runner(arguments, &rules, report);
   SeriesWriter command(arguments, scales, std::move(profile), rules, runner, report);
   const ExitCode code = runner.run(command);
-  report.add(report_unwritten(command.drawn(), rules));
+  report.add(report_untyped(command.drawn(), rules));
   runner.report_summary("drawn at " + counted(scales.size(), "scale"),
                         {{"operation", command.operations()}}, " in the log");
   return code;

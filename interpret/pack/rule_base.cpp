@@ -1,10 +1,10 @@
 #include "interpret/pack/rule_base.h"
 
 #include "interpret/compile/counts.h"
+#include "interpret/compile/emitted.h"
 #include "interpret/compile/reach.h"
 #include "interpret/compile/reads.h"
 #include "interpret/compile/strata.h"
-#include "interpret/compile/written.h"
 #include "interpret/evaluate/relations.h"
 #include "interpret/language/findings.h"
 #include "interpret/language/suggest.h"
@@ -187,7 +187,7 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   find_strata(pack, findings);
   if (!findings.has_errors()) check_reach(pack, findings);
   add_default_emissions(pack);
-  if (!findings.has_errors()) check_written(pack, findings);
+  if (!findings.has_errors()) check_emitted(pack, findings);
   pack.reads = find_reads(pack);
   find_raised(pack.classes);
   for (RelationDefinition& relation : pack.relations) relation.sides = sides_of(pack, relation);

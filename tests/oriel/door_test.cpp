@@ -148,10 +148,9 @@ TEST_SUITE("oriel") {
     CHECK(issue->severity == Severity::warning);
     CHECK(to_string(*issue).starts_with(
         "t.yaml:3:11: house: R258 " + std::to_string(openings) +
-        " features with the label 'opening' are written without a type, as a generic "
-        "BuildingInstallation where it protrudes and else as oriel_label of its surfaces: the "
-        "class "
-        "has no 'emit'; add emit: {opening: {type: BuildingInstallation}}\n"));
+        " features with the label 'opening' are written without a type, a protrusion "
+        "as a generic BuildingInstallation, anything else as oriel_label of its surfaces: the "
+        "class has no 'emit'; add emit: {opening: {type: BuildingInstallation}}\n"));
     LabelOptions none;
     none.has_output = false;
     const PipelineResult quiet = label(building, pack.value.value(), none);

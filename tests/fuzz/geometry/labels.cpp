@@ -36,7 +36,7 @@ void check_records(const Building& building, const PipelineResult& result) {
 
 /// What was written, read and labelled again, has the labels that are in it. Names of surfaces
 /// delimit imprints, so they are not looked at: there were none before.
-void check_written(const Document& document, const PipelineResult& result) {
+void check_emitted(const Document& document, const PipelineResult& result) {
   OutputRecord output;
   add(result.output, output);
   const auto again = document_of(write(document, output));
@@ -80,7 +80,7 @@ void labels(std::string_view input) {
   if (!document) return;
   const PipelineResult result = labelled(document->buildings[0]);
   check_records(document->buildings[0], result);
-  check_written(*document, result);
+  check_emitted(*document, result);
   if (!body.is_valid) return;
   const PipelineResult exact = labelled(body.building);
   check_retold(exact, turned_by_right_angle(body.building), "turned");

@@ -11,7 +11,7 @@ namespace oriel::fuzz {
 namespace {
 
 /// What was read is written in another form and read again: it is the same.
-void check_written(const std::vector<FeatureRecord>& records) {
+void check_emitted(const std::vector<FeatureRecord>& records) {
   static const ScratchFile file("again.jsonl");
   const std::string text = FeatureRecordWriter::text(RecordFormat::jsonl, records);
   const auto again = read_feature_records(file.write(text));
@@ -30,7 +30,7 @@ void feature_tables(std::string_view bytes) {
   try {
     const auto records = read_feature_records(file.write(bytes));
     promise(records.value || has_errors(records.issues), "a table has a value or an error");
-    if (records.value) check_written(*records.value);
+    if (records.value) check_emitted(*records.value);
     const auto tables = read_feature_tables(file.path());
     if (!tables.value) return;
     for (const DescribedBuilding& building : *tables.value)

@@ -48,7 +48,7 @@ bool is_small(const Document& document) {
 }
 
 /// Of one whole file: lines of a stream need their header.
-void check_written(const std::string& text, std::size_t buildings) {
+void check_emitted(const std::string& text, std::size_t buildings) {
   static const ScratchFile again("again.city.json");
   Reader reader(again.write(text), {});
   const auto record = reader.next();
@@ -67,7 +67,7 @@ void write(const Document& document) {
   const std::string text = write_cityjson(document, labelled, {});
   promise(!text.empty(), "a record that was read can be written");
   const bool is_file = document.format == Format::cityjson || is_mesh(document.format);
-  if (is_file) check_written(text, document.buildings.size());
+  if (is_file) check_emitted(text, document.buildings.size());
   write_meshes(document, labelled);
 }
 

@@ -1,4 +1,4 @@
-#include "interpret/surfaces/unwritten.h"
+#include "interpret/surfaces/untyped.h"
 
 #include "tests/interpret/support.h"
 
@@ -28,23 +28,22 @@ TEST_SUITE("interpret") {
     const auto counts = count_labels(interpret(base, scene.table(), scene.graph()));
     CHECK(counts == std::map<std::string, int>{
                         {"", 1}, {"window", 2}, {"vent", 1}, {"chimney", 2}, {"dormer", 1}});
-    const auto issues = report_unwritten(counts, base);
+    const auto issues = report_untyped(counts, base);
     REQUIRE(issues.size() == 2);
-    CHECK(
-        to_string(issues[0]) ==
-        "t.yaml:3:23: R258 1 feature with the label 'vent' is written without a type, as a "
-        "generic BuildingInstallation where it protrudes and else as oriel_label of its surfaces: "
-        "the class has no 'emit'; add emit: {vent: {type: BuildingInstallation}}\n"
-        "classes: {window: {}, vent: {}, chimney: {}, dormer: {}}\n"
-        "                      ^~~~");
+    CHECK(to_string(issues[0]) ==
+          "t.yaml:3:23: R258 1 feature with the label 'vent' is written without a type, a "
+          "protrusion as a generic BuildingInstallation, anything else as oriel_label of its "
+          "surfaces: the class has no 'emit'; add emit: {vent: {type: BuildingInstallation}}\n"
+          "classes: {window: {}, vent: {}, chimney: {}, dormer: {}}\n"
+          "                      ^~~~");
     CHECK(issues[1].sentence.starts_with(
-        "2 features with the label 'chimney' are written without a type, as "));
+        "2 features with the label 'chimney' are written without a type, "));
     for (const Issue& issue : issues) CHECK(issue.severity == Severity::warning);
   }
 
   TEST_CASE("nothing is said where every feature has a type") {
     const RuleBase base = load(kPack);
-    CHECK(report_unwritten({{"", 4}, {"window", 2}, {"dormer", 3}}, base).empty());
-    CHECK(report_unwritten({{"chimney", 0}}, base).empty());
+    CHECK(report_untyped({{"", 4}, {"window", 2}, {"dormer", 3}}, base).empty());
+    CHECK(report_untyped({{"chimney", 0}}, base).empty());
   }
 }

@@ -16,7 +16,7 @@ std::map<std::string, int> count_labels(const Interpretation& interpretation);
 /// What annotate() writes without a type of features with these labels, counted as count_labels()
 /// does: for each class without `emit:`, of its own or of a class above it, a warning R258 with the
 /// number of features and the place of the class in the pack; in the order of the pack.
-std::vector<Issue> report_unwritten(const std::map<std::string, int>& features_by_label,
-                                    const RuleBase& base);
+std::vector<Issue> report_untyped(const std::map<std::string, int>& features_by_label,
+                                  const RuleBase& base);
 
 }  // namespace oriel

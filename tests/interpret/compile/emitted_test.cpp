@@ -1,4 +1,4 @@
-#include "interpret/compile/written.h"
+#include "interpret/compile/emitted.h"
 
 #include "tests/interpret/support.h"
 
@@ -30,7 +30,7 @@ TEST_SUITE("interpret") {
     CHECK(issues[0].severity == Severity::note);
     CHECK(to_string(issues[0]) ==
           "t.yaml:3:23: R258 a feature with the label 'chimney' is written to files of buildings "
-          "without a type, as a generic BuildingInstallation where it protrudes and else as "
+          "without a type, a protrusion as a generic BuildingInstallation, anything else as "
           "oriel_label of its surfaces: the class has no 'emit'; add emit: {chimney: {type: "
           "BuildingInstallation}}\n"
           "classes: {window: {}, chimney: {}}\n"

@@ -1,6 +1,6 @@
-#include "interpret/surfaces/unwritten.h"
+#include "interpret/surfaces/untyped.h"
 
-#include "interpret/compile/written.h"
+#include "interpret/compile/emitted.h"
 #include "interpret/pack/pack.h"
 #include "kernel/base/counted.h"
 
@@ -10,7 +10,7 @@ namespace oriel {
 
 namespace {
 
-Issue unwritten_label(const rules::Pack& pack, const rules::Class& c, int features) {
+Issue untyped_label(const rules::Pack& pack, const rules::Class& c, int features) {
   Issue issue;
   issue.severity = Severity::warning;
   issue.code = Code::R258;
@@ -30,15 +30,15 @@ std::map<std::string, int> count_labels(const Interpretation& interpretation) {
   return counts;
 }
 
-std::vector<Issue> report_unwritten(const std::map<std::string, int>& features_by_label,
-                                    const RuleBase& base) {
+std::vector<Issue> report_untyped(const std::map<std::string, int>& features_by_label,
+                                  const RuleBase& base) {
   const rules::Pack& pack = base.pack();
   std::vector<Issue> issues;
   for (const rules::Class& c : pack.classes) {
     const auto counted = features_by_label.find(c.name);
     if (counted == features_by_label.end() || counted->second <= 0) continue;
-    if (!rules::is_label_written(pack, c.name))
-      issues.push_back(unwritten_label(pack, c, counted->second));
+    if (!rules::is_label_emitted(pack, c.name))
+      issues.push_back(untyped_label(pack, c, counted->second));
   }
   return issues;
 }

@@ -35,8 +35,9 @@ std::vector<std::string> warnings_of(const Outcome& outcome) {
 std::string warning(const std::string& pack, int column, const std::string& features,
                     const std::string& label) {
   return fmt::format(
-      "warning: {}:3:{}: R258 {} written without a type, as a generic BuildingInstallation where "
-      "it protrudes and else as oriel_label of its surfaces: the class has no 'emit'; add emit: "
+      "warning: {}:3:{}: R258 {} written without a type, a protrusion as a generic "
+      "BuildingInstallation, anything else as oriel_label of its surfaces: the class has no "
+      "'emit'; add emit: "
       "{{{}: {{type: BuildingInstallation}}}}",
       pack, column, features, label);
 }

@@ -1,4 +1,4 @@
-#include "interpret/compile/written.h"
+#include "interpret/compile/emitted.h"
 
 #include "interpret/pack/names.h"
 
@@ -21,7 +21,7 @@ bool is_given_here(const Pack& pack, ClassId id) {
 
 }  // namespace
 
-bool is_label_written(const Pack& pack, std::string_view label) {
+bool is_label_emitted(const Pack& pack, std::string_view label) {
   return role_of(pack, label).emission != nullptr;
 }
 
@@ -30,10 +30,10 @@ std::string advice_to_emit(std::string_view label) {
                      label);
 }
 
-void check_written(const Pack& pack, Findings& findings) {
+void check_emitted(const Pack& pack, Findings& findings) {
   for (ClassId id = 0; id < static_cast<ClassId>(pack.classes.size()); ++id) {
     const Class& c = pack.classes[static_cast<std::size_t>(id)];
-    if (c.is_abstract || !is_given_here(pack, id) || is_label_written(pack, c.name)) continue;
+    if (c.is_abstract || !is_given_here(pack, id) || is_label_emitted(pack, c.name)) continue;
     findings.note(Code::R258, c.span,
                   fmt::format("a feature with the label '{}' is written to files of buildings "
                               "without a type, {}: {}",
