@@ -11,6 +11,7 @@ houses=${3:-40}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
+export TMPDIR=$work  # where the solver of Snakemake leaves files when it is killed
 
 # Snakemake as Debian has it, unpacked for this test: nothing of the system changes, and nothing is compiled ahead.
 unpack_snakemake() {
