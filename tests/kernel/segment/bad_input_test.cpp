@@ -3,6 +3,7 @@
 #include "tests/support/houses.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <set>
 
@@ -203,7 +204,7 @@ TEST_SUITE("kernel/segment") {
     const Building building =
         ball(71, 71, [](int i, int j) { return 30.0 + 0.5 * ((i * 7 + j * 11) % 5); });
     SegmentOptions options;
-    options.budget = 20'000'000;
+    options.budget = 4'000'000;
     const Segmented s = segmented(building, options);
     CHECK(s.solid.facets.size() > 9000);
     CHECK(std::ranges::count(s.segmentation.cells, LeafFlag::budget, &Cell::flag) > 0);
@@ -241,10 +242,12 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("noise beyond the tolerances ends with the books kept or a coded issue") {
-    int solids = 0;
+    // With ORIEL_SLOW three drawings of the noise; CI takes one, as it takes long under sanitizers.
+    const std::uint64_t seeds = std::getenv("ORIEL_SLOW") != nullptr ? 3 : 1;
+    std::uint64_t solids = 0;
     for (const double noise : {0.001, 0.002, 0.005})
       for (const auto& [name, make] : test::bodies())
-        for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
           CAPTURE(std::string(name));
           CAPTURE(noise);
           CAPTURE(seed);
@@ -262,7 +265,7 @@ TEST_SUITE("kernel/segment") {
           for (const Cell& cell : segmentation.cells) sum += cell.sign * cell.volume_m3;
           CHECK(sum == doctest::Approx(volume_m3(*solid.value)).epsilon(1e-6));
         }
-    CHECK(solids > 200);
+    CHECK(solids > 66 * seeds);
   }
 }
 
