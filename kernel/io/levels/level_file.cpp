@@ -17,21 +17,21 @@ namespace {
 
 using nlohmann::ordered_json;
 
-Vec3 vector_of(const ordered_json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+Vec3 vector_of(const ordered_json& node) {
+  return {node.at(0).get<double>(), node.at(1).get<double>(), node.at(2).get<double>()};
 }
 
-MemberValue value_of(const ordered_json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_number()) return json.get<double>();
-  return json.get<std::string>();
+MemberValue value_of(const ordered_json& node) {
+  if (node.is_boolean()) return node.get<bool>();
+  if (node.is_number_integer()) return node.get<std::int64_t>();
+  if (node.is_number()) return node.get<double>();
+  return node.get<std::string>();
 }
 
 /// The members of an object but some.
-Members members_of(const ordered_json& json, const std::set<std::string>& but) {
+Members members_of(const ordered_json& node, const std::set<std::string>& but) {
   Members out;
-  for (const auto& [name, value] : json.items())
+  for (const auto& [name, value] : node.items())
     if (!but.contains(name)) out.emplace_back(name, value_of(value));
   return out;
 }

@@ -134,7 +134,7 @@ constexpr double kMostExposed = 0.01;
 /// What finding shapes and cells takes.
 constexpr std::int64_t kStepsPerCorner = 16;
 
-Soup counted(Soup soup, Work& work) {
+Soup with_counted_work(Soup soup, Work& work) {
   work.add(kStepsPerCorner * soup.corner_count());
   return soup;
 }
@@ -149,7 +149,7 @@ struct MendStage {
   ExposedFaces exposed;
 
   MendStage(Soup polygons, const Tolerances& tolerances, Work& work)
-      : soup(counted(std::move(polygons), work)),
+      : soup(with_counted_work(std::move(polygons), work)),
         shapes(shapes_of(soup)),
         cells(find_cells(soup, shapes)),
         exposed(is_open() ? ExposedFaces{}
