@@ -1,7 +1,7 @@
 #include "cli/batch/batch_runner.h"
 
+#include "cli/batch/arena.h"
 #include "cli/batch/isolation.h"
-#include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/counted.h"
@@ -13,10 +13,7 @@
 #include "kernel/io/records/feature_records.h"
 
 #include <algorithm>
-#include <new>
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 #include <stdexcept>
 #include <utility>
 
@@ -206,9 +203,6 @@ void BatchRunner::run_in_threads(InputReader& reader) {
   std::vector<Slot> slots(kRecordsPerJob * static_cast<std::size_t>(options_.jobs));
   std::size_t items_read = 0;
   make_tables();
-  const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
-                                            static_cast<std::size_t>(options_.jobs));
-  tbb::task_arena arena(options_.jobs);
   const RecordWorker worker = this->worker();
   const auto read = [&](tbb::flow_control& control) -> Slot* {
     take_over(&reader);
@@ -235,17 +229,12 @@ void BatchRunner::run_in_threads(InputReader& reader) {
     hand_on(slot);
     hand_on(this);
   };
-  // Where it lacked memory for itself, TBB waits for ever when its arena goes.
-  try {
-    arena.execute([&] {
-      tbb::parallel_pipeline(
-          slots.size(), tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order, read) &
-                            tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel, work) &
-                            tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, end));
-    });
-  } catch (const std::bad_alloc&) {
-    end_without_memory();
-  }
+  in_arena(options_.jobs, [&] {
+    tbb::parallel_pipeline(
+        slots.size(), tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order, read) &
+                          tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel, work) &
+                          tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, end));
+  });
   take_over(&reader);
   take_over(this);
 }

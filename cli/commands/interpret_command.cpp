@@ -1,9 +1,9 @@
+#include "cli/batch/arena.h"
 #include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
 #include "cli/output/safe_cells.h"
-#include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
@@ -16,14 +16,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <memory>
-#include <new>
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <span>
 #include <string>
 #include <thread>
@@ -47,20 +43,6 @@ struct InterpretArguments {
   bool is_watching = false;
   bool is_verbose = false;
 };
-
-/// Calls work(0) … work(count - 1), up to `jobs` of them at the same time.
-void in_threads(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
-  // More than there are cores is allowed, and TBB says nothing of it on stderr.
-  const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
-                                            static_cast<std::size_t>(jobs));
-  tbb::task_arena arena(jobs);
-  // Where it lacked memory for itself, TBB waits for ever when its arena goes.
-  try {
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
-  } catch (const std::bad_alloc&) {
-    end_without_memory();
-  }
-}
 
 /// Short against the time that a reader takes to look up, long against that of a look at a file.
 constexpr std::chrono::milliseconds kBetweenLooks{50};
@@ -155,7 +137,7 @@ class StoredFeatures {
     };
     const std::size_t shares = (all.size() + kShare - 1) / kShare;
     if (jobs > 1)
-      in_threads(jobs, shares, interpret_share);
+      in_arena(jobs, [&] { tbb::parallel_for(std::size_t{0}, shares, interpret_share); });
     else
       for (std::size_t number = 0; number < shares; ++number) interpret_share(number);
     for (const Interpretation& interpretation : run) report_.add(interpretation.issues);
