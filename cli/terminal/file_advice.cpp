@@ -68,7 +68,7 @@ std::string advice_on_missing(const std::string& path) {
   if (!folder.empty()) return folder;
   const std::string name = fs::path(path).filename().string();
   const std::string near = rules::nearest(name, names_in(folder_of(path)));
-  return near.empty() ? "expected a file or a folder that is there"
+  return near.empty() ? "expected an existing file or folder"
                       : fmt::format("did you mean '{}'?", printable(near));
 }
 

@@ -63,7 +63,7 @@ TEST_SUITE("cli") {
     const Outcome missing = run({"label", "no-such-file.city.json", "--log-level", "error"});
     CHECK(missing.err ==
           "error: no-such-file.city.json: E101 cannot be read: No such file or directory; "
-          "expected a file or a folder that is there\n");
+          "expected an existing file or folder\n");
   }
 
   TEST_CASE("with log-json every line of stderr is an object with time and level and logger") {
