@@ -101,7 +101,7 @@ class Redrawer {
     return is_closing ? "ClosureSurface" : type_by_slope(plane.normal);
   }
 
-  /// A wall or roof in which something was that is gone does not name it any more.
+  /// A wall or roof no longer names a feature that was removed from it.
   void forget_gone(SemanticSurface& surface) const {
     if (surface.type == "Window" || surface.type == "Door") return;
     const auto names_gone = [&](const auto& member) {
