@@ -165,9 +165,10 @@ bool is_other_file(const YamlNode& root) {
 
 void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   if (is_other_file(root)) {
-    findings.error(Code::R210, root.span,
-                   "this is not a rule pack: it has none of the keys of one, such as 'schema', 'pack' "
-                   "and 'rules'; expected a YAML file as 'oriel rules new' writes it");
+    findings.error(
+        Code::R210, root.span,
+        "this is not a rule pack: it has none of the keys of one, such as 'schema', 'pack' "
+        "and 'rules'; expected a YAML file as 'oriel rules new' writes it");
     return;
   }
   check_traps(root, findings);
