@@ -1,0 +1,102 @@
+#include "kernel/base/printable.h"
+#include "oriel/report/forms.h"
+
+#include <fmt/format.h>
+
+namespace oriel::report {
+
+/// Of embedded.cpp, which the build makes of report.html and vega.min.js.
+std::string_view report_page();
+std::string_view vega_script();
+
+namespace {
+
+std::string escaped_html(const std::string& text) {
+  std::string out;
+  for (const char c : printable(text)) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+void append_html_row(std::string& out, const std::vector<std::string>& cells, const char* tag) {
+  out += "<tr>";
+  for (const std::string& cell : cells)
+    out += fmt::format("<{0}>{1}</{0}>", tag, escaped_html(cell));
+  out += "</tr>\n";
+}
+
+void append_html_table(std::string& out, const ReportTable& table) {
+  out += fmt::format("<h3>{}</h3>\n<p>{}</p>\n<div class=\"scroll\"><table>\n",
+                     escaped_html(table.title), escaped_html(table.caption));
+  append_html_row(out, table.header, "th");
+  for (const auto& row : table.rows) append_html_row(out, row, "td");
+  out += "</table></div>\n";
+}
+
+/// The specification of a chart as it may stand in HTML: without any `<`.
+std::string without_tags(const std::string& json) {
+  std::string out;
+  for (const char c : json) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// The page with each {{name}} replaced, from the first to the last.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string_view>>& places) {
+  std::string out;
+  for (const auto& [place, text] : places) {
+    const std::size_t at = page.find(place);
+    out += page.substr(0, at);
+    out += text;
+    page.remove_prefix(at + place.size());
+  }
+  return out += page;
+}
+
+}  // namespace
+
+std::string html_of(const ExperimentResults& results, const std::vector<ReportSection>& sections) {
+  std::string body = fmt::format("<h1>{}</h1>\n", escaped_html(results.name));
+  if (!results.about.empty()) body += fmt::format("<p>{}</p>\n", escaped_html(results.about));
+  std::string charts;
+  std::size_t number = 0;
+  for (const ReportSection& section : sections) {
+    body += fmt::format("<h2>{}</h2>\n", escaped_html(section.group.title()));
+    for (const Chart& chart : section.charts) {
+      body += fmt::format("<div class=\"chart\" id=\"chart{}\"></div>\n", number++);
+      if (!charts.empty()) charts += ',';
+      charts += without_tags(vega_of(chart));
+    }
+    for (const ReportTable& table : section.tables) append_html_table(body, table);
+  }
+  if (!results.tables.empty()) body += "<h2>Further tables</h2>\n";
+  for (const ReportTable& table : results.tables) append_html_table(body, table);
+  body += fmt::format(
+      "<h2>How it was made</h2>\n<p>By {}. All rows are in <code>results.csv</code>, "
+      "all inputs with their hashes in <code>manifest.json</code>.</p>\n",
+      escaped_html(results.program));
+  ReportTable options{"Options", "Each option with its value.", {"option", "value"}, {}};
+  for (const auto& [name, value] : results.options) options.rows.push_back({name, value});
+  append_html_table(body, options);
+  return filled(report_page(), {{"{{title}}", escaped_html(results.name)},
+                                {"{{body}}", body},
+                                {"{{charts}}", "[" + charts + "]"},
+                                {"{{vega}}", vega_script()}});
+}
+
+}  // namespace oriel::report

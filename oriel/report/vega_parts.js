@@ -1,0 +1,2 @@
+export {default as embed} from 'vega-embed';
+export {expressionInterpreter} from 'vega-interpreter';
