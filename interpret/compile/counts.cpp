@@ -3,6 +3,7 @@
 #include "interpret/pack/names.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <ranges>
 #include <string>
@@ -155,7 +156,14 @@ class CountChecker {
   std::vector<std::vector<ClassId>> beneath_;
 };
 
+/// More are never counted.
+constexpr double kMostCounted = 1e6;
+
 }  // namespace
+
+bool is_count(double value) {
+  return value >= 0 && value <= kMostCounted && value == std::floor(value);
+}
 
 void relate_counts(Pack& pack) {
   const int storey = relation_number(pack, "same_storey");

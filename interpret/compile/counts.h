@@ -7,6 +7,9 @@
 
 namespace oriel::rules {
 
+/// True of a whole number of things that can be counted: 0 or more, at most a million.
+bool is_count(double value);
+
 /// Finds the relations that lead to the others of a storey and a facade, for every `typical:`.
 void relate_counts(Pack& pack);
 

@@ -1,5 +1,6 @@
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/explain/what_if.h"
+#include "interpret/params/depends_on.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>

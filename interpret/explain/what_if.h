@@ -4,6 +4,7 @@
 #include "interpret/explain/explain.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/pack.h"
+#include "interpret/params/settable_pack.h"
 
 #include <cstddef>
 #include <optional>
@@ -23,16 +24,13 @@ class WhatIf {
 
   /// The pack as it says, which may be changed for a while, and the building as it was labelled
   /// with it.
-  [[nodiscard]] Pack& pack() { return pack_; }
+  [[nodiscard]] Pack& pack() { return pack_.pack(); }
   [[nodiscard]] const EvaluationContext& context() const { return *context_; }
 
  private:
-  [[nodiscard]] bool set(std::size_t param, double value);
-  [[nodiscard]] bool is_sound() const;
-  [[nodiscard]] bool is_sound(const Ramp& ramp) const;
   std::vector<Choice> run(EvaluationContext& context) const;
 
-  Pack pack_;
+  SettablePack pack_;
   const FeatureTable* table_;
   const FeatureGraph* graph_;
   /// As the pack says, and the one that is labelled anew with another value.
@@ -40,10 +38,6 @@ class WhatIf {
   /// `changed_` has relations or kinds of host facets of another value.
   bool is_laid_out_anew_ = false;
 };
-
-/// True if the expression's value depends on the param, not counting what quantifiers in it ask of
-/// others; with them if `is_thorough`.
-bool depends_on(const Pack& pack, ExprId id, std::size_t param, bool is_thorough);
 
 /// The values of one param, within its range, at which something turns that a rule or a relation
 /// asks: a condition, or the beginning or end of a ramp.

@@ -44,6 +44,9 @@ struct Typical {
   /// The relation that leads to the others of the storey or the facade; -1: those of the building.
   int relation = -1;
   SourceSpan span;
+  /// What they were folded from; kNoExpr: `high` has no end.
+  ExprId low_of = kNoExpr;
+  ExprId high_of = kNoExpr;
 };
 
 /// How objects of a class are written: `emit:`.
@@ -137,6 +140,8 @@ struct Hosts {
   /// A face that looks down is ground if it lies no higher than this over the building's lowest
   /// point.
   double ground_reach_m = 0.5;
+  /// What it was folded from; kNoExpr: it was not written.
+  ExprId ground_reach_of = kNoExpr;
 };
 
 /// How much the labels of its others count for a feature: `decide: {evidence, company}`.
@@ -155,8 +160,9 @@ struct EvidenceSettings {
 struct Decide {
   double min_score = 0;
   double ambiguous_below = 0;
-  /// What min_score was folded from; kNoExpr: it was not written.
+  /// What they were folded from; kNoExpr: they were not written.
   ExprId min_score_of = kNoExpr;
+  ExprId ambiguous_below_of = kNoExpr;
   EvidenceSettings evidence;
 };
 

@@ -1,3 +1,4 @@
+#include "interpret/compile/counts.h"
 #include "interpret/compile/name_lookup.h"
 #include "interpret/language/parser.h"
 #include "interpret/language/quantity.h"
@@ -79,13 +80,6 @@ std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
   return param;
 }
 
-/// More are never counted.
-constexpr double kMostCounted = 1e6;
-
-bool is_count(double value) {
-  return value >= 0 && value <= kMostCounted && value == std::floor(value);
-}
-
 /// The node of a range that has no end, without the points after its low one; else nothing.
 std::optional<YamlNode> without_end(const YamlNode& node) {
   if (node.kind != YamlNode::Kind::scalar || !node.text.ends_with("..")) return std::nullopt;
@@ -96,19 +90,21 @@ std::optional<YamlNode> without_end(const YamlNode& node) {
 }
 
 struct CountRange {
-  double low = 0;
+  FixedValue low;
   /// Missing: no end.
-  std::optional<double> high;
+  std::optional<FixedValue> high;
 };
 
 /// `lo .. hi` or `lo ..`; what stands there is checked, and nothing is given if it is wrong.
 std::optional<CountRange> read_counts(const YamlNode& node, Loader& loader) {
   if (const auto low = without_end(node)) {
     const auto value = read_quantity(*low, Dimension{}, loader);
-    return value ? std::optional(CountRange{value->value, {}}) : std::nullopt;
+    return value ? std::optional(CountRange{*value, {}}) : std::nullopt;
   }
   const auto range = read_range(node, Dimension{}, loader);
-  return range ? std::optional(CountRange{range->low, range->high}) : std::nullopt;
+  if (!range) return std::nullopt;
+  return CountRange{{range->low, {}, range->low_expr},
+                    FixedValue{range->high, {}, range->high_expr}};
 }
 
 /// What is wrong with a key was said by the section.
@@ -120,14 +116,15 @@ void read_typical(const YamlNode& node, Class& c, Loader& loader) {
     const auto counts = read_counts(entry.value, loader);
     if (!counts) continue;
     const auto [low, high] = *counts;
-    if (!is_count(low) || (high && !is_count(*high))) {
+    if (!is_count(low.value) || (high && !is_count(high->value))) {
       loader.findings.error(Code::R212, entry.value.span,
                             "a count is a whole number, 0 or more, at most 1000000");
       continue;
     }
     const std::string per = entry.key.text.substr(std::string_view("per ").size());
-    const int most = high ? static_cast<int>(*high) : Typical::kNoEnd;
-    c.typical.push_back({per, static_cast<int>(low), most, -1, entry.key.span});
+    const int most = high ? static_cast<int>(high->value) : Typical::kNoEnd;
+    c.typical.push_back({per, static_cast<int>(low.value), most, -1, entry.key.span, low.expr,
+                         high ? high->expr : kNoExpr});
   }
 }
 

@@ -135,8 +135,10 @@ void read_hosts(const YamlNode& node, Loader& loader) {
     loader.findings.error(Code::R212, node.span, "wall, roof and ground overlap");
   const YamlNode* reach = section.find("ground_reach");
   if (reach == nullptr) return;
-  if (const auto value = read_quantity(*reach, Dimension{1, 0}, loader))
-    hosts.ground_reach_m = value->value;
+  const auto value = read_quantity(*reach, Dimension{1, 0}, loader);
+  if (!value) return;
+  hosts.ground_reach_m = value->value;
+  hosts.ground_reach_of = value->expr;
 }
 
 void read_decide(const YamlNode& node, Loader& loader) {
@@ -146,7 +148,8 @@ void read_decide(const YamlNode& node, Loader& loader) {
   Decide& decide = loader.pack.decide;
   decide.min_score_of =
       read_share(section.find("min_score"), "'min_score'", decide.min_score, loader);
-  read_share(section.find("ambiguous_below"), "'ambiguous_below'", decide.ambiguous_below, loader);
+  decide.ambiguous_below_of = read_share(section.find("ambiguous_below"), "'ambiguous_below'",
+                                         decide.ambiguous_below, loader);
   read_evidence(section, loader);
   if (const YamlNode* otherwise = section.find("otherwise"))
     read_choice(*otherwise, "'otherwise'", {"unknown"}, loader.findings);

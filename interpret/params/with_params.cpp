@@ -1,0 +1,269 @@
+#include "interpret/params/with_params.h"
+
+#include "interpret/compile/checker.h"
+#include "interpret/evaluate/arithmetic.h"
+#include "interpret/language/findings.h"
+#include "interpret/language/parser.h"
+#include "interpret/language/quantity.h"
+#include "interpret/language/suggest.h"
+#include "interpret/pack/names.h"
+#include "interpret/pack/pack.h"
+#include "interpret/params/settable_pack.h"
+#include "kernel/base/index.h"
+#include "kernel/base/sha256.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::Pack;
+using rules::Param;
+using rules::SourceSpan;
+
+Issue refusal(Code code, const std::string& assignment, std::string sentence) {
+  Issue issue;
+  issue.code = code;
+  issue.sentence = std::move(sentence);
+  issue.place.file = assignment;
+  return issue;
+}
+
+double number_in(const std::string& text) {
+  double number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// The fewest decimals that read the same number, without an exponent.
+std::string exact_text(double value) {
+  constexpr int kMostDecimals = 30;
+  std::string text = fmt::format("{}", value);
+  for (int decimals = 0; text.find('e') != std::string::npos && decimals <= kMostDecimals;
+       ++decimals)
+    if (std::string plain = fmt::format("{:.{}f}", value, decimals); number_in(plain) == value)
+      text = std::move(plain);
+  return text;
+}
+
+std::string number_text(double value, const std::string& unit) {
+  return unit.empty() ? exact_text(value) : exact_text(value) + " " + unit;
+}
+
+std::string number_text(double value, const Param& param) {
+  return number_text(value, rules::unit_of(param.dimension));
+}
+
+/// Where the text without blanks around it stands.
+SourceSpan trimmed(std::string_view text, SourceSpan span) {
+  while (span.begin < span.end && text[span.begin] == ' ') ++span.begin;
+  while (span.begin < span.end && text[span.end - 1] == ' ') --span.end;
+  return span;
+}
+
+/// Reads assignments one after the other; what is wrong with them is collected.
+class AssignmentReader {
+ public:
+  explicit AssignmentReader(const Pack& pack) : pack_(pack) {}
+
+  void read(const std::string& assignment) {
+    const std::size_t sign = assignment.find('=');
+    const SourceSpan name = trimmed(assignment, {0, std::min(sign, assignment.size())});
+    if (sign == std::string::npos || name.begin == name.end) {
+      issues_.push_back(
+          refusal(Code::R211, assignment,
+                  "this sets no param; expected its name, '=' and a value, such as " + example()));
+      return;
+    }
+    const int param = find_param(assignment, assignment.substr(name.begin, name.end - name.begin));
+    if (param < 0) return;
+    const SourceSpan value = trimmed(assignment, {sign + 1, assignment.size()});
+    if (const auto number = read_value(assignment, value, pack_.params[at(param)]))
+      values_.push_back({pack_.params[at(param)].name, *number});
+  }
+
+  Checked<std::vector<ParamValue>> result() {
+    if (has_errors(issues_)) return {std::nullopt, std::move(issues_)};
+    return {std::move(values_), std::move(issues_)};
+  }
+
+ private:
+  [[nodiscard]] std::string example() const {
+    if (pack_.params.empty()) return "parapet=0.9 m";
+    const Param& first = pack_.params.front();
+    return fmt::format("'{}={}'", first.name, number_text(first.value, first));
+  }
+
+  int find_param(const std::string& assignment, const std::string& name) {
+    const int param = rules::index_of(pack_.params, name);
+    if (param < 0) {
+      issues_.push_back(refusal(Code::R206, assignment, unknown(name)));
+    } else if (!seen_.insert(param).second) {
+      issues_.push_back(
+          refusal(Code::R202, assignment, fmt::format("the param '{}' is set twice", name)));
+      return -1;
+    }
+    return param;
+  }
+
+  [[nodiscard]] std::string unknown(const std::string& name) const {
+    const auto names = rules::names_of(pack_.params);
+    std::string advice = rules::did_you_mean(name, names);
+    if (advice.empty())
+      advice =
+          names.empty() ? "; the pack has no params" : "; the params are: " + rules::join(names);
+    return fmt::format("unknown param '{}'{}", name, advice);
+  }
+
+  /// The number that stands there, as one in a pack is read.
+  std::optional<double> read_value(const std::string& assignment, SourceSpan where,
+                                   const Param& param) {
+    Pack scratch(rules::Source(assignment, assignment));
+    rules::Findings findings(scratch.source);
+    rules::Names names;
+    if (where.begin == where.end) {
+      issues_.push_back(refusal(Code::R211, assignment,
+                                fmt::format("'{}' needs a value, such as {}", param.name,
+                                            number_text(param.value, param))));
+      return std::nullopt;
+    }
+    const auto syntax = rules::parse_expression(where, findings);
+    const auto id =
+        syntax ? rules::Checker(scratch, names, findings).constant(*syntax, param.dimension)
+               : rules::kNoExpr;
+    for (Issue& issue : findings.issues()) issues_.push_back(at_assignment(std::move(issue)));
+    if (id == rules::kNoExpr) return std::nullopt;
+    const double value = rules::fold(scratch, id).value_or(rules::kUnknown);
+    if (std::isfinite(value)) return value;
+    issues_.push_back(refusal(Code::R212, assignment, "this has no value"));
+    return std::nullopt;
+  }
+
+  /// An argument is one line, which the place says already.
+  static Issue at_assignment(Issue issue) {
+    issue.place.line = issue.place.column = 0;
+    issue.excerpt.clear();
+    return issue;
+  }
+
+  const Pack& pack_;
+  std::set<int> seen_;
+  std::vector<ParamValue> values_;
+  std::vector<Issue> issues_;
+};
+
+/// Values with their texts, which are their places.
+struct Assigned {
+  std::size_t param = 0;
+  double value = 0;
+  std::string text;
+};
+
+bool is_in_range(const Param& param, double value) {
+  return !param.range || (value >= param.range->first && value <= param.range->second);
+}
+
+Issue beyond_range(const Assigned& assigned, const Param& param) {
+  return refusal(
+      Code::R212, assigned.text,
+      fmt::format("{} is outside the range of '{}', {} .. {}", number_text(assigned.value, param),
+                  param.name, number_text(param.range->first, param),
+                  number_text(param.range->second, param)));
+}
+
+/// Of a pack that would be refused: at the first assignment that has to do with it.
+Issue refused(const rules::RefusedValue& fault, const Pack& pack,
+              std::span<const Assigned> assigned) {
+  const auto is_cause = [&](const Assigned& one) {
+    return std::ranges::find(fault.params, one.param) != fault.params.end();
+  };
+  const auto cause = std::ranges::find_if(assigned, is_cause);
+  const Place place = pack.source.place(fault.span.begin);
+  return refusal(Code::R212, cause == assigned.end() ? assigned.back().text : cause->text,
+                 fmt::format("with this value the pack would be refused at {}:{}:{}: {}",
+                             place.file, place.line, place.column, fault.sentence));
+}
+
+/// As the header says.
+std::string digest_of(const Pack& before, const Pack& after) {
+  std::string text;
+  for (std::size_t i = 0; i < before.params.size(); ++i)
+    if (before.params[i].value != after.params[i].value)
+      text += fmt::format("\n{}={}", after.params[i].name, exact_text(after.params[i].value));
+  return text.empty() ? before.sha256 : sha256(before.sha256 + text);
+}
+
+Checked<RuleBase> set_all(const Pack& pack, std::span<const Assigned> assigned) {
+  Checked<RuleBase> result;
+  rules::SettablePack changed(pack);
+  for (const Assigned& one : assigned) {
+    if (!is_in_range(pack.params[one.param], one.value))
+      result.issues.push_back(beyond_range(one, pack.params[one.param]));
+    changed.set(one.param, one.value);
+  }
+  if (result.issues.empty())
+    if (const auto fault = changed.find_fault())
+      result.issues.push_back(refused(*fault, pack, assigned));
+  if (!result.issues.empty()) return result;
+  auto made = std::make_shared<Pack>(std::move(changed.pack()));
+  made->sha256 = digest_of(pack, *made);
+  result.value.emplace(std::move(made));
+  return result;
+}
+
+}  // namespace
+
+std::vector<PackParam> params_of(const RuleBase& base) {
+  std::vector<PackParam> params;
+  for (const Param& param : base.pack().params)
+    params.push_back(
+        {param.name, param.value, rules::unit_of(param.dimension), param.range, param.why});
+  return params;
+}
+
+std::string to_string(const ParamValue& assigned, const RuleBase& base) {
+  const int param = rules::index_of(base.pack().params, assigned.name);
+  const std::string unit = param < 0 ? "" : rules::unit_of(base.pack().params[at(param)].dimension);
+  return fmt::format("{} = {}", assigned.name, number_text(assigned.value, unit));
+}
+
+Checked<std::vector<ParamValue>> read_assignments(const RuleBase& base,
+                                                  std::span<const std::string> assignments) {
+  AssignmentReader reader(base.pack());
+  for (const std::string& assignment : assignments) reader.read(assignment);
+  return reader.result();
+}
+
+Checked<RuleBase> with_params(const RuleBase& base, std::span<const std::string> assignments) {
+  const Pack& pack = base.pack();
+  auto read = read_assignments(base, assignments);
+  if (!read.value) return {std::nullopt, std::move(read.issues)};
+  std::vector<Assigned> assigned;
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    const ParamValue& value = (*read.value)[i];
+    assigned.push_back({at(rules::index_of(pack.params, value.name)), value.value, assignments[i]});
+  }
+  return set_all(pack, assigned);
+}
+
+Checked<RuleBase> with_params(const RuleBase& base, std::span<const ParamValue> values) {
+  std::vector<std::string> texts;
+  for (const ParamValue& value : values) {
+    const int param = rules::index_of(base.pack().params, value.name);
+    texts.push_back(fmt::format("{}={}", value.name,
+                                param < 0
+                                    ? exact_text(value.value)
+                                    : number_text(value.value, base.pack().params[at(param)])));
+  }
+  return with_params(base, texts);
+}
+
+}  // namespace oriel
