@@ -57,10 +57,6 @@ class Matcher {
   }
 
  private:
-  [[nodiscard]] bool is_scored(const ExpectedObject& object) const {
-    return std::ranges::find(options_.not_scored, object.label) == options_.not_scored.end();
-  }
-
   void find_pairs() {
     for (const ExpectedObject* truth : truth_)
       for (const Prediction* prediction : predictions_) {
@@ -101,14 +97,15 @@ class Matcher {
     const Prediction& prediction = *pair.prediction;
     ++score_.confusion[{truth.label, prediction.label}];
     ++score_.classes[prediction.label].false_positives;
-    if (is_scored(truth)) ++score_.classes[truth.label].false_negatives;
+    if (is_scored(truth.label, options_)) ++score_.classes[truth.label].false_negatives;
     score_.misses.push_back(
         {truth.building, truth.id, truth.label, prediction.id, prediction.label, pair.iou});
   }
 
   void add_rest() {
     for (const ExpectedObject* truth : truth_) {
-      if (is_left_out(*truth) || !is_scored(*truth) || is_done_.contains(truth)) continue;
+      if (is_left_out(*truth) || !is_scored(truth->label, options_) || is_done_.contains(truth))
+        continue;
       ++score_.classes[truth->label].false_negatives;
       ++score_.confusion[{truth->label, kNothing}];
       score_.misses.push_back({truth->building, truth->id, truth->label, "", "", 0});
@@ -182,6 +179,10 @@ Miss printable(const Miss& miss) {
 
 bool is_left_out(const ExpectedObject& object) {
   return !object.has_faces || (object.label == "other" && object.subclass == "installation");
+}
+
+bool is_scored(const std::string& label, const ScoreOptions& options) {
+  return std::ranges::find(options.not_scored, label) == options.not_scored.end();
 }
 
 ClassScore& ClassScore::operator+=(const ClassScore& other) {

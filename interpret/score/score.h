@@ -50,6 +50,9 @@ struct ScoreOptions {
   std::vector<std::string> not_scored = {"wall", "roof", "ground", "other"};
 };
 
+/// True of labels that features are expected to have where the truth has them.
+bool is_scored(const std::string& label, const ScoreOptions& options);
+
 /// How a class was found. Ratios without a denominator are NaN.
 struct ClassScore {
   std::size_t true_positives = 0;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <random>
 #include <set>
 
 #include <fmt/format.h>
@@ -16,22 +15,8 @@ namespace oriel {
 
 namespace {
 
-/// Any number does; it is fixed, so that the same records give the same intervals.
-constexpr std::uint64_t kSeed = 2004;
 /// The middle 95 %.
 constexpr double kTail = 0.025;
-
-ConfidenceInterval interval_of(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    return {none, none};
-  }
-  std::ranges::sort(values);
-  const auto last = static_cast<double>(values.size() - 1);
-  return {values[static_cast<std::size_t>(std::floor(kTail * last))],
-          values[static_cast<std::size_t>(std::ceil((1 - kTail) * last))]};
-}
 
 /// What a building has, the predictions with the best scores first.
 struct BuildingRecords {
@@ -45,12 +30,19 @@ struct BuildingRecords {
   }
 };
 
-std::string json_of(const ConfidenceInterval& interval) {
-  return fmt::format("[{},{}]", rules::json_number(interval.low),
-                     rules::json_number(interval.high));
-}
-
 }  // namespace
+
+ConfidenceInterval middle_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none};
+  }
+  std::ranges::sort(values);
+  const auto last = static_cast<double>(values.size() - 1);
+  return {values[static_cast<std::size_t>(std::floor(kTail * last))],
+          values[static_cast<std::size_t>(std::ceil((1 - kTail) * last))]};
+}
 
 std::vector<CurvePoint> precision_recall_curve(const std::vector<Prediction>& predictions,
                                                const std::vector<ExpectedObject>& truth,
@@ -89,20 +81,19 @@ Intervals bootstrap(const std::map<std::string, Score>& buildings, std::size_t s
     all.push_back(&score);
     for (const auto& [label, counts] : score.classes) f1[label];
   }
-  std::mt19937_64 draw(kSeed);
   std::vector<double> macro_f1;
+  BuildingDraws draws(std::max<std::size_t>(all.size(), 1));
   for (std::size_t sample = 0; sample < samples && !all.empty(); ++sample) {
     Score drawn;
     for (std::size_t i = 0; i < all.size(); ++i)
-      for (const auto& [label, counts] : all[draw() % all.size()]->classes)
-        drawn.classes[label] += counts;
+      for (const auto& [label, counts] : all[draws.next()]->classes) drawn.classes[label] += counts;
     for (const auto& [label, counts] : drawn.classes) f1[label].push_back(counts.f1());
     macro_f1.push_back(drawn.macro_f1());
   }
   Intervals intervals;
   intervals.samples = samples;
-  intervals.macro_f1 = interval_of(std::move(macro_f1));
-  for (auto& [label, values] : f1) intervals.f1[label] = interval_of(std::move(values));
+  intervals.macro_f1 = middle_of(std::move(macro_f1));
+  for (auto& [label, values] : f1) intervals.f1[label] = middle_of(std::move(values));
   return intervals;
 }
 
@@ -116,13 +107,18 @@ std::string to_text(const Intervals& intervals) {
                             intervals.macro_f1.high);
 }
 
+std::string interval_json(const ConfidenceInterval& interval) {
+  return fmt::format("[{},{}]", rules::json_number(interval.low),
+                     rules::json_number(interval.high));
+}
+
 std::string intervals_json(const Intervals& intervals) {
   std::string classes;
   for (const auto& [label, interval] : intervals.f1)
     classes += fmt::format("{}{}:{}", classes.empty() ? "" : ",", rules::json_string(label),
-                           json_of(interval));
+                           interval_json(interval));
   return fmt::format(R"("intervals":{{"samples":{},"f1":{{{}}},"macro_f1":{}}})", intervals.samples,
-                     classes, json_of(intervals.macro_f1));
+                     classes, interval_json(intervals.macro_f1));
 }
 
 }  // namespace oriel

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,24 @@ struct ConfidenceInterval {
   double high = 0;
 };
 
+/// The middle 95 % of values, of which NaN is none: quantiles that are values, the outer one where
+/// they lie between two.
+ConfidenceInterval middle_of(std::vector<double> values);
+
+/// Draws buildings with replacement, always in the same way.
+class BuildingDraws {
+ public:
+  /// `buildings`: at least 1.
+  explicit BuildingDraws(std::size_t buildings) : buildings_(buildings) {}
+  /// 0 … buildings - 1.
+  std::size_t next() { return generator_() % buildings_; }
+
+ private:
+  std::size_t buildings_;
+  /// Any number does; it is fixed, so that the same records give the same intervals.
+  std::mt19937_64 generator_{2004};
+};
+
 struct Intervals {
   std::size_t samples = 0;
   std::map<std::string, ConfidenceInterval> f1;
@@ -43,6 +62,8 @@ Intervals bootstrap(const std::map<std::string, Score>& buildings, std::size_t s
 
 /// For a terminal, a line a class; and `"intervals":{…}` for to_json (docs/formats.md).
 std::string to_text(const Intervals& intervals);
+/// `[low,high]`, as JSON.
+std::string interval_json(const ConfidenceInterval& interval);
 std::string intervals_json(const Intervals& intervals);
 
 }  // namespace oriel
