@@ -49,6 +49,12 @@
   X(E134, 0, "Nothing to work on") \
   X(E140, 0, "Something that cannot be added") \
   X(E141, 0, "No room for what is added") \
+  X(E150, 0, "Runs of different buildings") \
+  X(E151, 0, "A column that the rules read is missing") \
+  X(E152, 0, "A correction that cannot be read") \
+  X(E153, 0, "A correction of something that is not there") \
+  X(E154, 0, "Corrections that contradict each other") \
+  X(E155, 0, "A correction with an old feature id") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that does not exist") \
