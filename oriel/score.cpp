@@ -13,7 +13,8 @@ void add(std::vector<FeatureRecord> records, LabelsAndTruth& all) {
                                {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}},
                                r.score.value_or(0),
                                r.rule,
-                               r.runner_up});
+                               r.runner_up,
+                               r.name});
     all.faces[r.building].predictions.push_back({r.id, r.label, std::move(r.source_polygons)});
   }
 }
@@ -36,6 +37,10 @@ void add(const GroundTruth& truth, LabelsAndTruth& all) {
 std::map<std::string, Score> score_by_building(const LabelsAndTruth& all,
                                                const ScoreOptions& options) {
   return score_by_building(all.predictions, all.truth, options);
+}
+
+std::vector<ObjectMatch> match_features(const LabelsAndTruth& all, const ScoreOptions& options) {
+  return match_features(all.predictions, all.truth, options);
 }
 
 std::vector<CurvePoint> precision_recall_curve(const LabelsAndTruth& all,

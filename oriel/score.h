@@ -1,6 +1,8 @@
 #pragma once
 
 #include "interpret/score/area_score.h"
+#include "interpret/score/match.h"
+#include "interpret/score/paired.h"
 #include "interpret/score/rule_score.h"
 #include "interpret/score/score.h"
 #include "interpret/score/score_spread.h"
@@ -32,9 +34,14 @@ void add(std::vector<FeatureRecord> records, LabelsAndTruth& all);
 void add(const GroundTruth& truth, LabelsAndTruth& all);
 
 /// Precision, recall, confusion and misses of every building that has truth or predictions, by
-/// their boxes. total() sums them up, bootstrap() says how far they spread.
+/// their boxes. total() sums them up, bootstrap() says how far they spread, PairedComparer compares
+/// those of two runs (paired_outcomes).
 std::map<std::string, Score> score_by_building(const LabelsAndTruth& all,
                                                const ScoreOptions& options = {});
+
+/// Every feature with a label and every true object, with what it is compared with.
+std::vector<ObjectMatch> match_features(const LabelsAndTruth& all,
+                                        const ScoreOptions& options = {});
 
 /// How both depend on the least score of a label.
 std::vector<CurvePoint> precision_recall_curve(const LabelsAndTruth& all,

@@ -4,6 +4,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
 #include "cli/output/safe_cells.h"
+#include "cli/output/score_tables.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
@@ -43,7 +44,9 @@ struct ScoreArguments : RunOptions {
   double min_iou = ScoreOptions{}.min_iou;
   std::string per_building;
   std::string curve;
+  std::string joined;
   std::size_t samples = 0;
+  bool is_paired = false;
   bool is_by_rule = false;
   bool has_safe_cells = false;
   bool is_json = false;
@@ -74,15 +77,16 @@ std::vector<std::string> truth_files(const std::vector<std::string>& named) {
   return files;
 }
 
-LabelsAndTruth read(const ScoreArguments& arguments, Report& report, ExitCode& code) {
-  LabelsAndTruth all;
-  for (const std::string& path : arguments.inputs) {
-    auto records = read_feature_records(path);
-    report.add(records.issues);
-    if (has_errors(records.issues))
-      code = graver(code, records.value ? ExitCode::set_aside : ExitCode::input);
-    if (records.value) add(std::move(*records.value), all);
-  }
+void read_records(const std::string& path, LabelsAndTruth& all, Report& report, ExitCode& code) {
+  auto records = read_feature_records(path);
+  report.add(records.issues);
+  if (has_errors(records.issues))
+    code = graver(code, records.value ? ExitCode::set_aside : ExitCode::input);
+  if (records.value) add(std::move(*records.value), all);
+}
+
+void read_truth_files(const ScoreArguments& arguments, LabelsAndTruth& all, Report& report,
+                      ExitCode& code) {
   for (const std::string& path : arguments.truth) {
     const auto truths = read_truths(path);
     report.add(truths.issues);
@@ -90,7 +94,6 @@ LabelsAndTruth read(const ScoreArguments& arguments, Report& report, ExitCode& c
     if (truths.value)
       for (const GroundTruth& truth : *truths.value) add(truth, all);
   }
-  return all;
 }
 
 /// Areas come from the models that were labelled: neither records nor truth know them.
@@ -121,52 +124,29 @@ AreaScore compare_models(const ScoreArguments& arguments, const LabelsAndTruth& 
   return score;
 }
 
-std::string cell_of(double ratio) { return std::isnan(ratio) ? "" : fmt::format("{}", ratio); }
-
-void append_row(std::string& out, std::string first, std::string second, const ClassScore& counts) {
-  append_csv_line(out,
-                  {std::move(first), std::move(second), std::to_string(counts.true_positives),
-                   std::to_string(counts.false_positives), std::to_string(counts.false_negatives),
-                   cell_of(counts.precision()), cell_of(counts.recall()), cell_of(counts.f1())});
-}
-
-/// A line for each building and class, then one for all its classes together ("all"), as CSV:
-/// building, class, tp, fp, fn, precision, recall, f1. Ratios without a denominator are empty.
-std::string per_building_csv(const std::map<std::string, Score>& buildings) {
-  std::string text = "building,class,tp,fp,fn,precision,recall,f1\n";
-  for (const auto& [building, score] : buildings) {
-    ClassScore all;
-    for (const auto& [label, counts] : score.classes) {
-      append_row(text, building, label, counts);
-      all += counts;
-    }
-    append_row(text, building, "all", all);
-  }
-  return text;
-}
-
-/// A line for each point: class, threshold, tp, fp, fn, precision, recall, f1; class by class, the
-/// highest threshold first.
-std::string curve_csv(const std::vector<CurvePoint>& curve) {
-  std::vector<const CurvePoint*> points;
-  points.reserve(curve.size());
-  for (const CurvePoint& point : curve) points.push_back(&point);
-  std::ranges::stable_sort(points, {}, [](const CurvePoint* point) { return point->label; });
-  std::string text = "class,threshold,tp,fp,fn,precision,recall,f1\n";
-  for (const CurvePoint* point : points)
-    append_row(text, point->label, fmt::format("{}", point->threshold), point->counts);
-  return text;
-}
-
 std::string cells_of(const std::string& csv, const ScoreArguments& arguments) {
   return arguments.has_safe_cells ? with_safe_cells(csv) : csv;
 }
 
+/// The first ones, and "..." if there are more.
+std::string listed(const std::vector<std::string>& buildings) {
+  constexpr std::size_t kShown = 5;
+  const std::size_t shown = std::min(kShown, buildings.size());
+  const auto end = buildings.begin() + static_cast<std::ptrdiff_t>(shown);
+  return fmt::format("{}{}", fmt::join(buildings.begin(), end, ", "),
+                     shown < buildings.size() ? ", ..." : "");
+}
+
+std::set<std::string> recorded_buildings(const LabelsAndTruth& all) {
+  std::set<std::string> buildings;
+  for (const Prediction& prediction : all.predictions) buildings.insert(prediction.building);
+  return buildings;
+}
+
 /// A warning E131: no building of the truth has records, or some have none.
 std::optional<Issue> missing_records(const LabelsAndTruth& all, const ScoreOptions& options) {
-  constexpr std::size_t kShown = 5;
-  std::set<std::string> recorded, expected;
-  for (const Prediction& prediction : all.predictions) recorded.insert(prediction.building);
+  const std::set<std::string> recorded = recorded_buildings(all);
+  std::set<std::string> expected;
   for (const ExpectedObject& object : all.truth)
     if (!is_left_out(object) &&
         std::ranges::find(options.not_scored, object.label) == options.not_scored.end())
@@ -188,11 +168,7 @@ std::optional<Issue> missing_records(const LabelsAndTruth& all, const ScoreOptio
                         counted_of(missing.size(), expected.size(), "building"),
                         agreeing_of(missing.size(), expected.size(), "has", "have"),
                         agreeing_of(missing.size(), expected.size(), "its", "their"));
-  const std::size_t shown = std::min(kShown, missing.size());
-  issue.sentence +=
-      ": " +
-      fmt::format("{}", fmt::join(missing.begin(), missing.begin() + std::ptrdiff_t(shown), ", "));
-  if (shown < missing.size()) issue.sentence += ", ...";
+  issue.sentence += ": " + listed(missing);
   if (missing.size() == expected.size())
     issue.sentence += recorded.empty() ? "; there are no records"
                                        : fmt::format("; the records are of {}{}", *recorded.begin(),
@@ -205,7 +181,9 @@ ExitCode score_features(const ScoreArguments& arguments) {
   std::optional<RuleBase> pack;
   if (arguments.is_by_rule && !(pack = load_rules(arguments.rules, report))) return ExitCode::rules;
   ExitCode code = ExitCode::clean;
-  const LabelsAndTruth all = read(arguments, report, code);
+  LabelsAndTruth all;
+  for (const std::string& path : arguments.inputs) read_records(path, all, report, code);
+  read_truth_files(arguments, all, report, code);
   ScoreOptions options;
   options.min_iou = arguments.min_iou;
   if (const auto issue = missing_records(all, options)) {
@@ -241,7 +219,79 @@ ExitCode score_features(const ScoreArguments& arguments) {
   if (!arguments.curve.empty())
     write_file(arguments.curve,
                cells_of(curve_csv(precision_recall_curve(all, options)), arguments));
+  if (!arguments.joined.empty())
+    write_file(arguments.joined, cells_of(joined_csv(match_features(all, options)), arguments));
   print_out(text, arguments.is_json);
+  return code;
+}
+
+/// A warning E150: `file` has no record of buildings that the other run has.
+Issue lacks_buildings(const std::string& file, const std::vector<std::string>& missing,
+                      const std::string& other) {
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E150;
+  issue.place.file = file;
+  issue.sentence = fmt::format("has no record of {} that {} has; {} not compared: {}",
+                               counted(missing.size(), "building"), other,
+                               agreeing(missing.size(), "it is", "they are"), listed(missing));
+  return issue;
+}
+
+/// Drops the buildings of which only one run has records.
+void keep_common_buildings(const ScoreArguments& arguments, LabelsAndTruth& first,
+                           LabelsAndTruth& second, Report& report, ExitCode& code) {
+  const std::set<std::string> of_first = recorded_buildings(first);
+  const std::set<std::string> of_second = recorded_buildings(second);
+  const auto report_missing = [&](const auto& some, const auto& others, std::size_t lacking) {
+    std::vector<std::string> missing;
+    std::ranges::set_difference(some, others, std::back_inserter(missing));
+    if (missing.empty()) return;
+    report.add(lacks_buildings(arguments.inputs[lacking], missing, arguments.inputs[1 - lacking]));
+    code = graver(code, ExitCode::set_aside);
+  };
+  report_missing(of_first, of_second, 1);
+  report_missing(of_second, of_first, 0);
+  const auto is_of_one = [&](const auto& item) {
+    return of_first.contains(item.building) != of_second.contains(item.building);
+  };
+  for (LabelsAndTruth* run : {&first, &second}) {
+    std::erase_if(run->predictions, is_of_one);
+    std::erase_if(run->truth, is_of_one);
+  }
+  if (!of_first.empty() && !of_second.empty() && first.predictions.empty()) {
+    Issue issue;
+    issue.code = Code::E150;
+    issue.place.file = arguments.inputs[1];
+    issue.sentence =
+        fmt::format("has no building of {}: there is nothing to compare", arguments.inputs[0]);
+    throw InputError(std::move(issue));
+  }
+}
+
+/// Two runs on the same buildings.
+ExitCode score_paired(const ScoreArguments& arguments) {
+  constexpr std::size_t kUsualSamples = 1000;
+  Report report(arguments.is_verbose);
+  ExitCode code = ExitCode::clean;
+  LabelsAndTruth first, second;
+  read_records(arguments.inputs[0], first, report, code);
+  read_records(arguments.inputs[1], second, report, code);
+  read_truth_files(arguments, first, report, code);
+  second.truth = first.truth;
+  keep_common_buildings(arguments, first, second, report, code);
+  ScoreOptions options;
+  options.min_iou = arguments.min_iou;
+  if (const auto issue = missing_records(first, options)) {
+    report.add(*issue);
+    code = graver(code, ExitCode::set_aside);
+  }
+  const auto [before, after] = paired_outcomes(score_by_building(first, options),
+                                               score_by_building(second, options), options);
+  const std::size_t samples = arguments.samples > 0 ? arguments.samples : kUsualSamples;
+  const PairedComparison comparison = PairedComparer(before, samples).compare(after);
+  print_out(arguments.is_json ? to_json(comparison) + "\n" : to_text(comparison),
+            arguments.is_json);
   return code;
 }
 
@@ -287,6 +337,16 @@ void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
                      "Write what was found in each building, as CSV");
   command.add_option("--curve", arguments.curve,
                      "Write precision and recall as a function of the rules' score, as CSV");
+  auto* join = command.add_option("--join", arguments.joined,
+                                  "Write every labelled feature and every true object with what it "
+                                  "is compared with, as CSV");
+  auto* paired = command.add_flag("--paired", arguments.is_paired,
+                                  "Compare two runs on the same buildings: differences of F1 with "
+                                  "95 % intervals, and McNemar's exact test");
+  join->excludes(command.get_option("--surfaces"));
+  for (const char* other :
+       {"--surfaces", "--models", "--by-rule", "--per-building", "--curve", "--join"})
+    paired->excludes(command.get_option(other));
   add_safe_cells_argument(command, arguments.has_safe_cells);
   command
       .add_option("--bootstrap", arguments.samples,
@@ -302,21 +362,35 @@ void check_names(const ScoreArguments& arguments) {
   for (const std::string& truth : arguments.truth) files.add_input("--truth", truth);
   files.add_output("--per-building", arguments.per_building);
   files.add_output("--curve", arguments.curve);
+  files.add_output("--join", arguments.joined);
   files.check();
 }
 
+/// --paired compares two files and nothing else.
+void check_paired(const ScoreArguments& arguments) {
+  if (!arguments.is_paired) return;
+  if (arguments.inputs.size() != 2)
+    throw CLI::ValidationError("--paired", fmt::format("compares two files of records, the first "
+                                                       "and the second run; {} given",
+                                                       counted(arguments.inputs.size(), "file")));
+}
+
 ExitCode work(ScoreArguments& arguments) {
+  check_paired(arguments);
   {
     Report report(arguments.is_verbose);
-    arguments.is_of_surfaces ? settle_inputs(arguments, report)
-                             : read_once(arguments.inputs, report);
+    // A run may be compared with itself.
+    if (arguments.is_of_surfaces)
+      settle_inputs(arguments, report);
+    else if (!arguments.is_paired)
+      read_once(arguments.inputs, report);
     arguments.truth = truth_files(arguments.truth);
     read_once(arguments.truth, report);
   }
   check_names(arguments);
   if (arguments.is_of_surfaces) return score_surfaces(arguments);
   if (arguments.truth.empty()) throw CLI::RequiredError("--truth");
-  return score_features(arguments);
+  return arguments.is_paired ? score_paired(arguments) : score_features(arguments);
 }
 
 }  // namespace

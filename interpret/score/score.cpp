@@ -1,14 +1,13 @@
 #include "interpret/score/score.h"
 
+#include "interpret/score/match.h"
 #include "interpret/yaml/json_text.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
-#include "kernel/geometry/boxes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -17,114 +16,10 @@ namespace oriel {
 
 namespace {
 
-constexpr const char* kNothing = "-";
-
 double ratio(std::size_t part, std::size_t whole) {
   if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
   return static_cast<double>(part) / static_cast<double>(whole);
 }
-
-/// A prediction and an object whose boxes meet.
-struct MatchCandidate {
-  double iou = 0;
-  const ExpectedObject* truth = nullptr;
-  const Prediction* prediction = nullptr;
-};
-
-bool is_better_match(const MatchCandidate& p, const MatchCandidate& q) {
-  if (p.iou != q.iou) return p.iou > q.iou;
-  return std::tie(p.truth->id, p.prediction->id) < std::tie(q.truth->id, q.prediction->id);
-}
-
-/// Predictions and objects of one building.
-class Matcher {
- public:
-  Matcher(std::vector<const Prediction*> predictions, std::vector<const ExpectedObject*> truth,
-          const ScoreOptions& options, Score& score)
-      : predictions_(std::move(predictions)),
-        truth_(std::move(truth)),
-        options_(options),
-        score_(score) {}
-
-  void run() {
-    find_pairs();
-    match([](const MatchCandidate& p) { return p.truth->label == p.prediction->label; },
-          [&](const MatchCandidate& p) { add_hit(p); });
-    drop_neutral();
-    match([](const MatchCandidate&) { return true; },
-          [&](const MatchCandidate& p) { add_confusion(p); });
-    add_rest();
-  }
-
- private:
-  void find_pairs() {
-    for (const ExpectedObject* truth : truth_)
-      for (const Prediction* prediction : predictions_) {
-        const double overlap = intersection_over_union(grown(truth->box, options_.grow_m),
-                                                       grown(prediction->box, options_.grow_m));
-        if (overlap >= options_.min_iou) pairs_.push_back({overlap, truth, prediction});
-      }
-    std::ranges::stable_sort(pairs_, is_better_match);
-  }
-
-  /// One to one, the best first, among what is not matched yet.
-  template <class Wanted, class Add>
-  void match(Wanted is_wanted, Add add) {
-    for (const MatchCandidate& pair : pairs_) {
-      if (is_left_out(*pair.truth) || !is_wanted(pair)) continue;
-      if (is_done_.contains(pair.truth) || is_done_.contains(pair.prediction)) continue;
-      is_done_.insert(pair.truth);
-      is_done_.insert(pair.prediction);
-      add(pair);
-    }
-  }
-
-  void add_hit(const MatchCandidate& pair) {
-    ++score_.classes[pair.truth->label].true_positives;
-    ++score_.confusion[{pair.truth->label, pair.prediction->label}];
-  }
-
-  void drop_neutral() {
-    for (const MatchCandidate& pair : pairs_)
-      if (is_left_out(*pair.truth) && is_done_.insert(pair.prediction).second) {
-        ++score_.neutral;
-        score_.left_out.emplace_back(pair.prediction->building, pair.prediction->id);
-      }
-  }
-
-  void add_confusion(const MatchCandidate& pair) {
-    const ExpectedObject& truth = *pair.truth;
-    const Prediction& prediction = *pair.prediction;
-    ++score_.confusion[{truth.label, prediction.label}];
-    ++score_.classes[prediction.label].false_positives;
-    if (is_scored(truth.label, options_)) ++score_.classes[truth.label].false_negatives;
-    score_.misses.push_back(
-        {truth.building, truth.id, truth.label, prediction.id, prediction.label, pair.iou});
-  }
-
-  void add_rest() {
-    for (const ExpectedObject* truth : truth_) {
-      if (is_left_out(*truth) || !is_scored(truth->label, options_) || is_done_.contains(truth))
-        continue;
-      ++score_.classes[truth->label].false_negatives;
-      ++score_.confusion[{truth->label, kNothing}];
-      score_.misses.push_back({truth->building, truth->id, truth->label, "", "", 0});
-    }
-    for (const Prediction* prediction : predictions_) {
-      if (is_done_.contains(prediction)) continue;
-      ++score_.classes[prediction->label].false_positives;
-      ++score_.confusion[{kNothing, prediction->label}];
-      score_.misses.push_back({prediction->building, "", "", prediction->id, prediction->label, 0});
-    }
-  }
-
-  std::vector<const Prediction*> predictions_;
-  std::vector<const ExpectedObject*> truth_;
-  const ScoreOptions& options_;
-  Score& score_;
-  std::vector<MatchCandidate> pairs_;
-  std::set<const void*> is_done_;
-};
 
 using rules::json_number;
 using rules::json_string;
@@ -218,20 +113,7 @@ double Score::macro_f1() const {
 std::map<std::string, Score> score_by_building(const std::vector<Prediction>& predictions,
                                                const std::vector<ExpectedObject>& truth,
                                                const ScoreOptions& options) {
-  struct Content {
-    std::vector<const Prediction*> predictions;
-    std::vector<const ExpectedObject*> truth;
-  };
-  std::map<std::string, Content> buildings;
-  for (const Prediction& prediction : predictions)
-    if (!prediction.label.empty())
-      buildings[prediction.building].predictions.push_back(&prediction);
-  for (const ExpectedObject& object : truth) buildings[object.building].truth.push_back(&object);
-  std::map<std::string, Score> scores;
-  for (auto& [building, content] : buildings)
-    Matcher(std::move(content.predictions), std::move(content.truth), options, scores[building])
-        .run();
-  return scores;
+  return score_by_building(match_objects(predictions, truth, options), options);
 }
 
 Score total(const std::map<std::string, Score>& buildings) {

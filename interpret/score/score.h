@@ -23,6 +23,8 @@ struct Prediction {
   /// The rule that decided, and the label that came second; empty where nobody says.
   std::string rule = {};
   std::string runner_up = {};
+  /// For people: feature_names().
+  std::string name = {};
 };
 
 /// Something that is there.
