@@ -10,6 +10,7 @@
 #include "oriel/label.h"       // IWYU pragma: export
 #include "oriel/mesh.h"        // IWYU pragma: export
 #include "oriel/options.h"     // IWYU pragma: export
+#include "oriel/perturb.h"     // IWYU pragma: export
 #include "oriel/read.h"        // IWYU pragma: export
 #include "oriel/repair.h"      // IWYU pragma: export
 #include "oriel/result.h"      // IWYU pragma: export

@@ -1,50 +1,24 @@
 #pragma once
 
 #include "examples/generator/geometry/point.h"
+#include "kernel/base/random.h"
 
 #include <cstdint>
-#include <utility>
-#include <vector>
 
 namespace oriel::generator {
 
-/// A small generator of pseudo-random numbers (splitmix64). Its sequence is part of the file
-/// format: unlike std::uniform_*_distribution it is the same on every platform.
-class Random {
+/// The library's random numbers, and lengths. Its sequence is part of what a seed stands for.
+class Random : public oriel::Random {
  public:
-  /// Two streams of one seed share nothing.
-  explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : state_(seed) {
-    state_ = next() ^ (stream * 0xd1342543de82ef95U + 1);
-  }
+  using oriel::Random::between;
+  using oriel::Random::Random;
 
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-  }
-  /// One of 0 … count − 1; `count` > 0.
-  int below(int count) { return static_cast<int>(next() % static_cast<std::uint64_t>(count)); }
-  /// One of low, low + 1, …, high.
-  int between(int low, int high) { return low + below(high - low + 1); }
   /// A length in [low, high], a whole number of steps over `low`; `low` where high < low.
   Um between(Um low, Um high, Um step) {
     if (high < low) return low;
     return low +
            step * static_cast<Um>(next() % static_cast<std::uint64_t>((high - low) / step + 1));
   }
-  /// True with the given probability.
-  bool chance(double probability) {
-    return static_cast<double>(next() >> 11U) * 0x1p-53 < probability;
-  }
-  template <class T>
-  void shuffle(std::vector<T>& items) {
-    for (std::size_t left = items.size(); left > 1; --left)
-      std::swap(items[left - 1], items[next() % left]);
-  }
-
- private:
-  std::uint64_t state_;
 };
 
 }  // namespace oriel::generator
