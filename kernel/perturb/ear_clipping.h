@@ -15,8 +15,9 @@ struct FlatCorner {
 
 /// Cuts a polygon with holes into triangles without new corners, in a random way: ears are clipped
 /// in random order. `rings` index `corners`: the outer ring, counter-clockwise, then the holes,
-/// clockwise. Triangles are counter-clockwise, and fewer than corners + 2 × holes − 2 where a hole
-/// sees no corner of the outer ring; none where no ear is left, as the rings cross.
+/// clockwise. Triangles are counter-clockwise, and corners + 2 × holes − 2 of them. Fewer where a
+/// hole sees no corner of the outer ring. Where rings cross there may be none, or one that is not
+/// counter-clockwise.
 ///
 /// Source: Eberly, Triangulation by Ear Clipping. Exact.
 std::vector<std::array<int, 3>> clip_ears(const std::vector<FlatCorner>& corners,
