@@ -37,6 +37,14 @@ make l-house --seed 1 --roof gable --storeys 2 --width 13..15 --depth 8..9 \
 make row --seed 2 --roof gable --storeys 2 --width 24 --depth 8 \
   --features window,door,bay,chimney,plinth,vent,canopy,sill
 
+# The building of the paper's figure 5, by a script of its own.
+if command -v python3 >/dev/null; then
+  python3 "$samples/../figure5.py" >"$folder/figure5.city.json"
+elif [ "$check" = yes ]; then
+  echo "figure5.city.json is not compared: no python3"
+  cp "$samples/figure5.city.json" "$folder"
+fi
+
 # The house of `oriel rules new`, without truth and labels.
 starter=$samples/../../rules/starter/my_class.city.json
 made=$(mktemp -d)
