@@ -57,9 +57,10 @@ std::optional<double> score(const Pack& pack, const Rule& rule, Evaluator& evalu
 
 }  // namespace
 
-Labelling::Labelling(const Pack& pack, EvaluationContext& context)
+Labelling::Labelling(const Pack& pack, EvaluationContext& context, const KnownJudgements* known)
     : pack_(&pack),
       context_(&context),
+      known_(known),
       evaluator_(pack, context),
       choices_(context.rows),
       candidates_(context.rows),
@@ -116,18 +117,25 @@ void Labelling::run_predicates(const RuleStep& step) {
   bool has_changed = true;
   while (has_changed) {
     has_changed = false;
-    for (const int id : step.rules) has_changed = apply_predicate(rule(id)) || has_changed;
+    for (const int id : step.rules) has_changed = apply_predicate(id) || has_changed;
     has_changed = has_changed && step.is_recursive;
   }
 }
 
-bool Labelling::apply_predicate(const Rule& rule) {
-  evaluator_.forget();
+bool Labelling::apply_predicate(int id) {
   std::vector<Truth> truths(context_->rows, Truth::no);
-  for (const Judgement& judgement : judge(*pack_, rule, evaluator_, context_->row_numbers))
-    truths[oriel::at(judgement.row)] = judgement.truth;
+  const auto add_all = [&](const std::vector<Judgement>& judgements) {
+    for (const Judgement& judgement : judgements)
+      truths[oriel::at(judgement.row)] = judgement.truth;
+  };
+  if (const auto* known = known_ == nullptr ? nullptr : known_->of(id)) {
+    add_all(*known);
+  } else {
+    evaluator_.forget();
+    add_all(judge(*pack_, rule(id), evaluator_, context_->row_numbers));
+  }
   bool has_changed = false;
-  for (const ClassId at : pack_->classes[oriel::at(rule.label)].raised)
+  for (const ClassId at : pack_->classes[oriel::at(rule(id).label)].raised)
     has_changed = raise_all(context_->membership[oriel::at(at)], truths) || has_changed;
   return has_changed;
 }
@@ -161,15 +169,23 @@ bool Labelling::is_open(ClassId decided, ClassId label) const {
 
 void Labelling::collect(int id) {
   const ClassId label = rule(id).label;
+  if (const auto* known = known_ == nullptr ? nullptr : known_->of(id)) {
+    for (const Judgement& judgement : *known)
+      if (is_open(decided_[oriel::at(judgement.row)], label)) add_candidate(id, judgement);
+    return;
+  }
   open_rows_.clear();
   for (const int row : context_->row_numbers)
     if (is_open(decided_[oriel::at(row)], label)) open_rows_.push_back(row);
-  for (const Judgement& judgement : judge(*pack_, rule(id), evaluator_, open_rows_)) {
-    if (judgement.truth == Truth::yes)
-      candidates_[oriel::at(judgement.row)].push_back({id, judgement.score});
-    else
-      unknown_rows_[oriel::at(label)].push_back(judgement.row);
-  }
+  for (const Judgement& judgement : judge(*pack_, rule(id), evaluator_, open_rows_))
+    add_candidate(id, judgement);
+}
+
+void Labelling::add_candidate(int id, const Judgement& judgement) {
+  if (judgement.truth == Truth::yes)
+    candidates_[oriel::at(judgement.row)].push_back({id, judgement.score});
+  else
+    unknown_rows_[oriel::at(rule(id).label)].push_back(judgement.row);
 }
 
 /// What is close is decided with what the others say.

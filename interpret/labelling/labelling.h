@@ -21,6 +21,19 @@ std::vector<Judgement> judge(const Pack& pack, const Rule& rule, Evaluator& eval
 double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
                   const FeatureRows& rows);
 
+/// What is known of rules before they are run: asked for every rule when its turn has come.
+class KnownJudgements {
+ public:
+  KnownJudgements() = default;
+  KnownJudgements(const KnownJudgements&) = delete;
+  KnownJudgements& operator=(const KnownJudgements&) = delete;
+  virtual ~KnownJudgements() = default;
+
+  /// What judge() would say of the rule and all rows of the building, as far as memberships are
+  /// known by now; null if it is to be asked.
+  [[nodiscard]] virtual const std::vector<Judgement>* of(int rule) const = 0;
+};
+
 /// Runs the rules of a pack over one building, stratum by stratum. Afterwards `context.membership`
 /// says of every feature and class whether it is one.
 ///
@@ -29,7 +42,8 @@ double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
 /// the first round all are unknown.
 class Labelling {
  public:
-  Labelling(const Pack& pack, EvaluationContext& context);
+  /// `known` may be null.
+  Labelling(const Pack& pack, EvaluationContext& context, const KnownJudgements* known = nullptr);
 
   /// What was decided; of several rounds in the last.
   std::vector<Choice> run();
@@ -51,9 +65,10 @@ class Labelling {
   void run_round();
 
   void run_predicates(const RuleStep& step);
-  bool apply_predicate(const Rule& rule);
+  bool apply_predicate(int rule);
   void run_decision(const RuleStep& step);
   void collect(int rule);
+  void add_candidate(int rule, const Judgement& judgement);
   [[nodiscard]] bool is_open(ClassId decided, ClassId label) const;
   void weigh_evidence();
   void decide(std::size_t row);
@@ -66,6 +81,7 @@ class Labelling {
 
   const Pack* pack_;
   EvaluationContext* context_;
+  const KnownJudgements* known_;
   Evaluator evaluator_;
   std::vector<Choice> choices_;
   std::vector<std::vector<Choice>> rounds_;

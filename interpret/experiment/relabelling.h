@@ -1,0 +1,58 @@
+#pragma once
+
+#include "interpret/evaluate/evaluation_context.h"
+#include "interpret/experiment/changed_pack.h"
+#include "interpret/experiment/rule_uses.h"
+#include "interpret/labelling/labelling.h"
+#include "interpret/pack/pack.h"
+
+#include <span>
+#include <vector>
+
+namespace oriel::rules {
+
+/// One building that is labelled with a pack and then, again and again, with what becomes of it
+/// when the pack is changed. Only rules are asked again that say something else, or that ask for a
+/// class to which other features belong now; where nothing comes of that, no decision is made anew.
+/// Table, graph, pack and uses must outlive it.
+class Relabelling {
+ public:
+  Relabelling(const Pack& pack, const RuleUses& uses, const FeatureTable& table,
+              const FeatureGraph& graph);
+
+  /// What interpret() decides for every feature with the pack as it is.
+  [[nodiscard]] const std::vector<Choice>& choices() const { return choices_; }
+  /// The same with a changed pack, whose base is this one. Valid until the next call.
+  const std::vector<Choice>& choices(const ChangedPack& changed,
+                                     const RuleUses::Affected& affected);
+
+  /// The class that was chosen, or kNoClass.
+  static ClassId label_of(const Pack& pack, const Choice& choice) {
+    return choice.rule < 0 ? kNoClass : pack.rules[static_cast<std::size_t>(choice.rule)].label;
+  }
+
+ private:
+  class Known;
+
+  void know_judgements();
+  bool ask(const ChangedPack& changed, const RuleUses::Affected& affected,
+           EvaluationContext& context);
+  std::vector<Choice> run(const Pack& pack, EvaluationContext& context, const Known* known) const;
+
+  const Pack* pack_;
+  const RuleUses* uses_;
+  const FeatureTable* table_;
+  const FeatureGraph* graph_;
+  EvaluationContext context_;
+  /// As the pack says; memberships after the last rule, and what each rule says with them of all
+  /// features.
+  std::vector<Choice> choices_;
+  std::vector<std::vector<Truth>> membership_;
+  std::vector<std::vector<Judgement>> judged_;
+  /// What the affected rules say with the same memberships, by rule; and which these are.
+  std::vector<std::vector<Judgement>> judged_anew_;
+  std::vector<bool> is_anew_;
+  std::vector<Choice> changed_choices_;
+};
+
+}  // namespace oriel::rules

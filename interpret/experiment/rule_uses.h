@@ -1,0 +1,52 @@
+#pragma once
+
+#include "interpret/experiment/changed_pack.h"
+#include "interpret/pack/pack.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace oriel::rules {
+
+/// What the rules of a pack depend on, found once.
+class RuleUses {
+ public:
+  explicit RuleUses(const Pack& pack);
+
+  /// What a change touches before any building is looked at.
+  struct Affected {
+    /// Rules whose conditions or scores say something else; of others the labels of other features
+    /// alone may change what they say. By number, ascending.
+    std::vector<int> rules;
+    /// Relations that the pack declares lead to others.
+    bool has_other_relations = false;
+    /// Decisions are made otherwise even where all rules say the same.
+    bool decides_anew = false;
+  };
+  [[nodiscard]] Affected affected_by(const PackChange& change) const;
+
+  /// The classes that the rule asks for, ascending.
+  [[nodiscard]] const std::vector<ClassId>& classes_of(int rule) const {
+    return rules_[static_cast<std::size_t>(rule)].classes;
+  }
+
+ private:
+  /// What an expression, a rule or a relation depends on.
+  struct Uses {
+    std::vector<bool> params;
+    std::vector<bool> relations;
+    std::vector<ClassId> classes;
+    bool has_facets = false;
+  };
+  void add(ExprId id, Uses& uses) const;
+  [[nodiscard]] bool is_of(const Uses& uses, const std::vector<bool>& params,
+                           const std::vector<bool>& relations, bool has_other_hosts) const;
+  [[nodiscard]] bool depends(ExprId id, const std::vector<bool>& params) const;
+
+  const Pack* pack_;
+  std::vector<Uses> rules_;
+  /// By position in Pack::relations.
+  std::vector<Uses> relations_;
+};
+
+}  // namespace oriel::rules

@@ -1,0 +1,130 @@
+#include "interpret/experiment/variant.h"
+
+#include "interpret/experiment/changed_pack.h"
+#include "interpret/pack/names.h"
+#include "interpret/pack/pack.h"
+#include "kernel/base/index.h"
+#include "kernel/base/sha256.h"
+
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::ExprId;
+using rules::Pack;
+using rules::Rule;
+using rules::SourceSpan;
+using Kind = DroppedPart::Kind;
+
+/// Goes through a pack and lists what can be left out.
+class AblationFinder {
+ public:
+  explicit AblationFinder(const Pack& pack) : pack_(pack) {}
+
+  std::vector<Variant> run() {
+    add_counts();
+    for (int rule = 0; rule < static_cast<int>(pack_.rules.size()); ++rule) add_rule(rule);
+    add_evidence();
+    return std::move(found_);
+  }
+
+ private:
+  void add(DroppedPart part, std::string name, SourceSpan span) {
+    Variant& variant = found_.emplace_back();
+    variant.name = "without " + std::move(name);
+    variant.without = {part};
+    variant.place = pack_.source.place(span.begin);
+  }
+
+  [[nodiscard]] SourceSpan span_of(ExprId id) const { return pack_.code[at(id)].span; }
+  [[nodiscard]] std::string_view text_of(ExprId id) const {
+    return pack_.source.text_of(span_of(id));
+  }
+
+  void add_rule(int number) {
+    const Rule& rule = pack_.rules[at(number)];
+    add({Kind::rule, number}, "rule " + rule.id, rule.span);
+    for (int item = 0; item < static_cast<int>(rule.require.size()); ++item)
+      add_condition(number, item);
+    const auto add_item = [&](Kind kind, int item, ExprId id, const char* what) {
+      add({kind, number, item}, fmt::format("{} '{}' of {}", what, text_of(id), rule.id),
+          span_of(id));
+    };
+    for (int item = 0; item < static_cast<int>(rule.unless.size()); ++item)
+      add_item(Kind::veto, item, rule.unless[at(item)], "unless");
+    for (int item = 0; item < static_cast<int>(rule.score.size()); ++item)
+      add_item(Kind::score_term, item, rule.score[at(item)].value, "score");
+  }
+
+  /// The conditions that are joined by `and` in the rule itself; what a macro joins is one.
+  void add_condition(int number, int item) {
+    const Rule& rule = pack_.rules[at(number)];
+    const ExprId id = rule.require[at(item)];
+    const rules::Expr& expr = pack_.code[at(id)];
+    const auto add_one = [&](int part, ExprId dropped) {
+      add({Kind::condition, number, item, part},
+          fmt::format("'{}' of {}", text_of(dropped), rule.id), span_of(dropped));
+    };
+    const bool is_joined = expr.op == rules::Op::all_of && expr.args.size() > 1;
+    if (is_joined)
+      for (int part = 0; part < static_cast<int>(expr.args.size()); ++part)
+        add_one(part, expr.args[at(part)]);
+    else if (rule.require.size() > 1)
+      add_one(-1, id);
+  }
+
+  void add_counts() {
+    if (!pack_.decide.evidence.is_written()) return;
+    for (int id = 0; id < static_cast<int>(pack_.classes.size()); ++id) {
+      const rules::Class& c = pack_.classes[at(id)];
+      for (int item = 0; item < static_cast<int>(c.typical.size()); ++item)
+        add({Kind::typical, id, item},
+            fmt::format("typical number of {} per {}", c.name, c.typical[at(item)].per),
+            c.typical[at(item)].span);
+    }
+  }
+
+  void add_evidence() {
+    const rules::EvidenceSettings& evidence = pack_.decide.evidence;
+    if (!evidence.is_written()) return;
+    add({Kind::evidence}, "joint evidence", evidence.span);
+    const auto names = rules::relation_names(pack_);
+    for (int item = 0; item < static_cast<int>(evidence.company.size()); ++item)
+      add({Kind::company, -1, item}, "company " + names[at(evidence.company[at(item)])],
+          evidence.span);
+  }
+
+  const Pack& pack_;
+  std::vector<Variant> found_;
+};
+
+}  // namespace
+
+Variant variant_with(const RuleBase& base, std::vector<ParamValue> params) {
+  Variant variant;
+  for (const ParamValue& param : params)
+    variant.name += (variant.name.empty() ? "" : ", ") + to_string(param, base);
+  variant.params = std::move(params);
+  return variant;
+}
+
+std::vector<Variant> ablations(const RuleBase& base) { return AblationFinder(base.pack()).run(); }
+
+Checked<RuleBase> with_variant(const RuleBase& base, const Variant& variant) {
+  Checked<RuleBase> set = with_params(base, std::span(variant.params));
+  if (!set.value || variant.without.empty()) return set;
+  rules::ChangedPack changed(set.value->pack());
+  changed.become({{}, variant.without});
+  auto pack = std::make_shared<Pack>(changed.pack());
+  pack->sha256 = sha256(pack->sha256 + "\n" + variant.name);
+  set.value.emplace(std::move(pack));
+  return set;
+}
+
+}  // namespace oriel
