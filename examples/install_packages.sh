@@ -12,7 +12,7 @@ packages=(
 if [ "${1:-}" = --build ]; then
   shift
 else
-  packages+=(clang-format doctest-dev librapidcheck-dev libbenchmark-dev libeigen3-dev)
+  packages+=(clang-format doctest-dev librapidcheck-dev libbenchmark-dev libeigen3-dev pybind11-dev python3-dev python3-numpy)
 fi
 packages+=("$@")
 

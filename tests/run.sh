@@ -6,11 +6,11 @@ cd "$(dirname "$0")/.."
 examples/install_packages.sh dpkg-dev file help2man lintian
 
 echo "== format"
-find bench cli examples generalise interpret kernel oriel tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+find bench cli examples generalise interpret kernel oriel python tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 clang-format --dry-run -Werror
 
 echo "== build"
-cmake --preset release -DORIEL_TESTS=ON -DORIEL_SANITIZED_TESTS=ON -DORIEL_BENCH=ON -DORIEL_UNITY=ON
+cmake --preset release -DORIEL_TESTS=ON -DORIEL_SANITIZED_TESTS=ON -DORIEL_BENCH=ON -DORIEL_PYTHON=ON -DORIEL_UNITY=ON
 cmake --build --preset release
 
 echo "== tests"

@@ -1,0 +1,89 @@
+"""Rule packs."""
+from __future__ import annotations
+
+import os
+from typing import Union
+
+from . import _oriel
+from .errors import Error
+
+
+class Pack:
+    """A rule pack that was checked and is ready to be run; it never changes, and threads may share it.
+
+    `Pack("residential")` is a pack that is built in, `Pack("mine.yaml")` one of a file; Pack.from_text() takes the YAML
+    itself. Raises Error with all that is wrong, each with file, line and column; warnings are in `issues`.
+    """
+
+    issues: list[_oriel.Issue]
+
+    def __init__(self, name: Union[str, os.PathLike[str]]) -> None:
+        self._take(*_oriel.load_pack_file(os.fspath(name)))
+
+    @classmethod
+    def from_text(cls, text: str, file: str = "pack.yaml") -> Pack:
+        """The pack in `text`, called `file` in places. It may extend packs that are built in."""
+        pack = cls.__new__(cls)
+        pack._take(*_oriel.load_pack(text, file))
+        return pack
+
+    def _take(self, base: Union[_oriel.RuleBase, None], issues: list[_oriel.Issue]) -> None:
+        if base is None:
+            raise Error(issues)
+        self._base = base
+        self.issues = issues
+
+    @property
+    def name(self) -> str:
+        """As the pack states it."""
+        return self._base.name
+
+    @property
+    def version(self) -> str:
+        """As the pack states it."""
+        return self._base.version
+
+    @property
+    def file(self) -> str:
+        """The name it was loaded under, as places show it."""
+        return self._base.file
+
+    @property
+    def files(self) -> list[str]:
+        """That one and the packs that it extends, the nearest first."""
+        return self._base.files
+
+    @property
+    def sha256(self) -> str:
+        """Of the pack's text and of those that it extends, 64 hexadecimal digits."""
+        return self._base.sha256
+
+    @property
+    def labels(self) -> list[str]:
+        """The labels it may give, in the order of the pack."""
+        return self._base.labels
+
+    @property
+    def rule_count(self) -> int:
+        """How many rules it has."""
+        return self._base.rule_count
+
+    @property
+    def codelists(self) -> list[str]:
+        """The code lists that it has codes for, sorted: what `codelist` of label() may be."""
+        return self._base.codelists
+
+    def __repr__(self) -> str:
+        return f"<oriel.Pack '{self.name}' {self.version}: {self.rule_count} rules for {len(self.labels)} labels>"
+
+
+Rules = Union[str, "os.PathLike[str]", Pack]
+
+
+def pack_of(rules: Rules) -> Pack:
+    return rules if isinstance(rules, Pack) else Pack(rules)
+
+
+def embedded_packs() -> list[str]:
+    """The names of the packs that are built in, sorted."""
+    return _oriel.embedded_packs()

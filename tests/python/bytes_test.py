@@ -1,0 +1,101 @@
+"""The module gives the bytes of the command."""
+import json
+import unittest
+
+import oriel
+from support import HOUSE, SAMPLES, TRUTH, FolderTest, run, stripped_samples
+
+
+class BytesTest(FolderTest):
+    def compare(self, name, items, *words, **options):
+        """What write() makes of the items is what the command writes."""
+        ours, theirs = self.folder / ("ours" + name), self.folder / ("theirs" + name)
+        oriel.write(ours, items, **options)
+        run(*words, "-o", theirs)
+        self.assert_same_bytes(ours, theirs)
+
+    def test_labels_of_every_sample(self):
+        samples = stripped_samples()
+        self.assertGreaterEqual(len(samples), 8)
+        for sample in samples:
+            with self.subTest(sample.name):
+                self.compare(".city.json", oriel.label(sample), "label", sample)
+
+    def test_buildings_redrawn_for_scales_and_levels_of_detail(self):
+        labelled = oriel.label(HOUSE)
+        for scale in (2000, "1:5000", "1 : 20000"):
+            with self.subTest(scale):
+                self.compare(".city.json", oriel.generalise(labelled, scale=scale), "generalise", HOUSE, "--scale", scale)
+        self.compare(".city.json", oriel.generalise(HOUSE, to_lod=["2.0", "1.2"]), "generalise", HOUSE, "--to-lod", "2.0,1.2")
+        self.compare(".stl", oriel.generalise(labelled, to_lod="2.0"), "generalise", HOUSE, "--to-lod", "2.0")
+        self.compare(".city.json", oriel.generalise(labelled, profile="lod:2.0", edge_min=0.4), "generalise", HOUSE,
+                     "--profile", "lod:2.0", "--edge-min", 0.4)
+
+    def test_repaired_buildings(self):
+        for name in ("house", "block"):
+            sample = SAMPLES / f"{name}.stripped.city.json"
+            self.compare(".city.json", oriel.repair(sample), "repair", sample)
+
+    def test_labels_with_options(self):
+        noisy = SAMPLES / "house-noisy.stripped.city.json"
+        self.compare(".city.json", oriel.label(HOUSE, explain=True), "label", HOUSE, "--explain")
+        self.compare(".city.json", oriel.label(noisy, repaired=True), "label", noisy, "--repaired")
+        self.compare(".city.json", oriel.label(noisy, plane_offset=0.004, order="paper", close="none"), "label", noisy,
+                     "--plane-offset", 0.004, "--order", "paper", "--close", "none")
+        labelled = SAMPLES / "house.labelled.city.json"
+        self.compare(".city.json", oriel.label(labelled, ignore_semantics=True), "label", labelled, "--existing", "replace",
+                     "--ignore-semantics", existing="replace")
+
+    def test_meshes(self):
+        for name in (".obj", ".off", ".ply", ".stl"):
+            with self.subTest(name):
+                self.compare(name, oriel.label(HOUSE), "label", HOUSE)
+
+    def test_streams_and_texts(self):
+        stream, _ = self.houses()
+        labelled = oriel.label(oriel.read(stream), jobs=2)
+        self.compare(".city.jsonl", labelled, "label", stream)
+        self.assertEqual(oriel.to_text(labelled), (self.folder / "theirs.city.jsonl").read_text())
+        self.assertEqual(oriel.to_text(oriel.read(stream)), stream.read_text())
+        again = oriel.read_text(stream.read_text(), from_="cityjsonseq")
+        self.assertEqual(oriel.to_text(oriel.label(again)), oriel.to_text(labelled))
+
+    def test_what_was_not_labelled_stays_unchanged(self):
+        stream, _ = self.houses()
+        buildings = oriel.read(stream)
+        some = [oriel.label(building) for building in buildings[1:3]]
+        lines = oriel.to_text(some).splitlines()
+        before, after = stream.read_text().splitlines(), oriel.to_text(oriel.label(buildings)).splitlines()
+        self.assertEqual([line == old for line, old in zip(lines, before)], [True, True, False, False, True])
+        self.assertEqual(lines[2:4], after[2:4])
+
+    def test_reasons(self):
+        result = oriel.label(HOUSE)["house"]
+        name = "chimney 1 of roof slope north"
+        explanation = oriel.explain(result, name)
+        self.assertEqual(explanation.json + "\n", run("explain", HOUSE, name, "--json"))
+        self.assertEqual(str(explanation), run("explain", HOUSE, name))
+        self.assertEqual(explanation.full_text, run("explain", HOUSE, name, "--full"))
+        self.assertEqual(oriel.explain_json(result) + "\n", run("explain", HOUSE, "--json"))
+        self.assertEqual((explanation.label, explanation.name), ("chimney", name))
+        self.assertEqual(oriel.explain(result, explanation.feature[:5]).feature, explanation.feature)
+        self.assertEqual([one.feature for one in oriel.explain(result)], list(oriel.features(result)["id"]))
+
+    def test_scores(self):
+        records = self.folder / "parts.csv"
+        labelled = oriel.label(HOUSE)
+        oriel.write_features(records, labelled)
+        words = ["score", records, "--truth", TRUTH, "--bootstrap", 50, "--by-rule", "--models", HOUSE]
+        for labels in (labelled, labelled[0], oriel.features(labelled), records):
+            score = oriel.score(labels, TRUTH, bootstrap=50, by_rule=True, models=HOUSE)
+            self.assertEqual(score.json + "\n", run(*words, "--json"))
+            self.assertEqual(str(score), run(*words))
+            self.assertEqual(score.issues, [])
+        members = json.loads(score.json)
+        self.assertEqual(members["classes"]["window"]["f1"], score.classes["window"].f1)
+        self.assertEqual(oriel.score(labelled, oriel.read_truth(TRUTH), iou=0.7).json + "\n",
+                         run("score", records, "--truth", TRUTH, "--iou", 0.7, "--json"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,116 @@
+"""Features are the columns of the tables of the command."""
+import csv
+import unittest
+
+import numpy as np
+
+import oriel
+from support import HOUSE, FolderTest, run
+
+BOX = ["xmin_m", "ymin_m", "zmin_m", "xmax_m", "ymax_m", "zmax_m"]
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class FeaturesTest(FolderTest):
+    def compare_column(self, rows, name, column):
+        if column.dtype.kind == "U":
+            self.assertEqual([row[name] for row in rows], list(column), name)
+        else:
+            expected = [float(row[name]) if row[name] else np.nan for row in rows]
+            np.testing.assert_array_equal(expected, column, name)
+
+    def compare_lists(self, rows, field, lists, names):
+        for i, row in enumerate(rows):
+            self.assertEqual(row[field], ";".join(str(names[k]) for k in lists[i]), field)
+
+    def test_columns_and_relations_have_what_the_table_says(self):
+        stream, _ = self.houses(2)
+        parts = self.folder / "parts.csv"
+        run("label", stream, "--features", parts)
+        rows = rows_of(parts)
+        for features in (oriel.features(oriel.label(stream)), oriel.read_features(parts)):
+            self.assertEqual(features.count, len(rows))
+            self.assertEqual(len(features), len(list(features)))
+            compared = {"aabb_m", "source_polygons"}
+            for name in features:
+                if name in BOX:
+                    continue
+                self.compare_column(rows, name, features[name])
+                compared.add(name)
+            boxes = np.stack([features[name] for name in BOX], axis=1)
+            np.testing.assert_array_equal(boxes, [[float(x) for x in row["aabb_m"].split(";")] for row in rows])
+            self.compare_lists(rows, "source_polygons", features.relations["source_polygons"], range(10_000))
+            for relation in oriel.relation_schema:
+                if relation != "host":
+                    self.compare_lists(rows, "rel_" + relation, features.relations[relation], features["id"])
+                    compared.add("rel_" + relation)
+            self.assertEqual(compared, set(rows[0]))
+
+    def test_tables_have_the_bytes_of_the_command(self):
+        labelled, segmented = oriel.label(HOUSE), oriel.segment(HOUSE)
+        for name in ("parts.csv", "parts.json", "parts.jsonl"):
+            for command, results in (("label", labelled), ("segment", segmented)):
+                with self.subTest(command + " " + name):
+                    ours, theirs = self.folder / name, self.folder / ("theirs." + name)
+                    oriel.write_features(ours, results)
+                    run(command, HOUSE, "--features", theirs)
+                    self.assert_same_bytes(ours, theirs)
+
+    def test_stored_features_get_the_labels_of_their_building(self):
+        stream, _ = self.houses(2)
+        parts, ours, theirs = (self.folder / name for name in ("parts.csv", "ours.csv", "theirs.csv"))
+        segmented, labelled = oriel.segment(stream), oriel.features(oriel.label(stream))
+        oriel.write_features(parts, segmented)
+        stored = oriel.read_features(parts)
+        self.assertEqual(set(stored["label"]), {""})
+        for named in (oriel.interpret(stored), oriel.interpret(segmented), oriel.interpret(parts)):
+            for column in ("label", "score", "margin", "rule", "runner_up", "name", "groups", "part_of"):
+                np.testing.assert_array_equal(named[column], labelled[column], column)
+        self.assertEqual(set(stored["label"]), {""})
+        oriel.write_features(ours, oriel.interpret(parts))
+        run("interpret", parts, "-o", theirs)
+        self.assert_same_bytes(ours, theirs)
+
+    def test_every_attribute_has_a_unit_and_a_meaning(self):
+        features = oriel.features(oriel.segment(HOUSE))
+        self.assertLessEqual(set(oriel.schema), set(features))
+        for column, attribute in oriel.schema.items():
+            self.assertIn(attribute.unit, ("m", "m2", "m3", "deg", "count", "ratio", "text", "yes/no"))
+            self.assertTrue(attribute.meaning)
+            self.assertEqual(features[column].dtype.kind == "U", attribute.unit == "text", column)
+            self.assertEqual(features[column].shape, (features.count,))
+        self.assertEqual(oriel.schema["height_m"].unit, "m")
+        self.assertTrue(all(oriel.relation_schema.values()))
+
+    def test_nothing_is_a_table_without_rows(self):
+        features = oriel.features([])
+        self.assertEqual(features.count, 0)
+        self.assertEqual(features["label"].shape, (0,))
+        self.assertEqual(features["height_m"].shape, (0,))
+        self.assertEqual(len(features.relations["contains"]), 0)
+        self.assertEqual(oriel.interpret(features)["label"].shape, (0,))
+
+    def test_lists_are_cut_from_two_arrays(self):
+        lists = oriel.features(oriel.segment(HOUSE)).relations["contains"]
+        self.assertEqual(lists.starts[0], 0)
+        self.assertEqual(lists.starts[-1], len(lists.others))
+        self.assertEqual(sum(len(lists[row]) for row in lists), len(lists.others))
+        with self.assertRaises(KeyError):
+            lists[len(lists)]
+
+    def test_pandas_takes_the_columns(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("pandas is not installed")
+        features = oriel.features(oriel.label(HOUSE))
+        frame = pandas.DataFrame(dict(features))
+        self.assertEqual(frame.shape, (features.count, len(features)))
+
+
+if __name__ == "__main__":
+    unittest.main()
