@@ -18,6 +18,9 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
 set(CPACK_COMPONENTS_ALL oriel dev doc)
+if(ORIEL_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
@@ -63,3 +66,20 @@ redraws them for a map scale.
 .
 This package has its pages in Markdown: the commands, the language of rules,
 formats, error codes, the stages one by one, and how well they do on real data.")
+
+# Built for one version of the interpreter, as its file says.
+if(ORIEL_PYTHON)
+  math(EXPR next_python "${ORIEL_PYTHON_MINOR} + 1")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-oriel)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${ORIEL_PYTHON_MINOR}~), python3 (<< 3.${next_python}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "oriel-doc, python3-matplotlib, python3-pandas")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "find and name the parts of 3D buildings from Python
+oriel cuts closed 3D buildings into their parts, names them by rules and
+redraws them for a map scale.
+.
+This package has the module oriel for Python 3: it reads, labels, explains,
+scores, redraws and writes buildings as the command oriel does, and gives the
+attributes of their parts as NumPy arrays.")

@@ -1,5 +1,6 @@
 #include "oriel/explain.h"
 #include "oriel/interpret.h"
+#include "oriel/rules.h"
 #include "oriel/write.h"
 #include "python/src/handles.h"
 

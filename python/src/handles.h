@@ -1,6 +1,10 @@
 #pragma once
 
-#include "oriel/oriel.h"
+#include "oriel/generalise.h"
+#include "oriel/interpret.h"
+#include "oriel/label.h"
+#include "oriel/read.h"
+#include "oriel/write.h"
 
 #include <cstddef>
 #include <map>

@@ -1,4 +1,3 @@
-#include "oriel/oriel.h"
 #include "python/src/handles.h"
 
 #include <pybind11/pybind11.h>

@@ -19,7 +19,10 @@ fail() { echo "$*" >&2; exit 1; }
 root=$work/root
 mkdir -p "$root/var/lib/dpkg"/{info,updates,triggers}
 touch "$root/var/lib/dpkg/status"
-for package in oriel liboriel-dev oriel-doc; do
+packages=(oriel liboriel-dev oriel-doc)
+# With ORIEL_PYTHON.
+if compgen -G "$work/python3-oriel_*.deb" >/dev/null; then packages+=(python3-oriel); fi
+for package in "${packages[@]}"; do
   deb=$(echo "$work/${package}"_*.deb)
   [ -f "$deb" ] || fail "no package $package"
   dpkg-deb --contents "$deb" | awk '{print $6}' | sed 's/^[.]//' >"$work/$package.list"
@@ -49,7 +52,7 @@ holds liboriel-dev /usr/include/oriel/oriel/oriel.h /usr/share/doc/liboriel-dev/
 grep -q '/liboriel[.]a$' "$work/liboriel-dev.list" || fail "liboriel-dev has no library"
 grep -q '/cmake/oriel/oriel-config.cmake$' "$work/liboriel-dev.list" || fail "liboriel-dev has no file for find_package"
 holds oriel-doc /usr/share/doc/oriel-doc/README.md /usr/share/doc/oriel-doc/docs/command.md
-for package in oriel liboriel-dev oriel-doc; do
+for package in "${packages[@]}"; do
   holds $package "/usr/share/doc/$package/copyright" "/usr/share/doc/$package/changelog.gz"
   if grep -vE '^/(usr/.*)?$' "$work/$package.list"; then fail "$package writes outside of /usr"; fi
 done
@@ -61,6 +64,18 @@ needs=$(dpkg-deb --field "$work"/oriel_*.deb Depends)
 for library in libc6 libyaml-cpp libsimdjson libopenmesh libtbb; do
   [[ $needs == *$library* ]] || fail "oriel does not depend on $library: $needs"
 done
+
+if [ -f "$work/python3-oriel.list" ]; then
+  holds python3-oriel /usr/lib/python3/dist-packages/oriel/{__init__.py,_oriel.pyi,py.typed}
+  needs=$(dpkg-deb --field "$work"/python3-oriel_*.deb Depends)
+  for package in 'python3 (<< 3.' python3-numpy libyaml-cpp; do
+    [[ $needs == *$package* ]] || fail "python3-oriel does not depend on $package: $needs"
+  done
+  house=$root/usr/share/oriel/samples/house.stripped.city.json
+  PYTHONPATH=$root/usr/lib/python3/dist-packages /usr/bin/python3 -B -c "import oriel; oriel.write('$work/python.city.json', oriel.label('$house'))"
+  "$root/usr/bin/oriel" label "$house" -o "$work/command.city.json" 2>"$work/log"
+  cmp "$work/python.city.json" "$work/command.city.json"
+fi
 
 "$root/usr/bin/oriel" completion bash | cmp - "$root/usr/share/bash-completion/completions/oriel"
 
