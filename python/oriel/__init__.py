@@ -35,13 +35,13 @@ from .features import (
     schema,
     write_features,
 )
-from .packs import Pack, embedded_packs
+from .packs import Pack, Param, embedded_packs
 from .scores import read_truth, score
 from .stages import explain, explain_json, generalise, label, repair, segment
 
 __all__ = [
     "Attribute", "Building", "ClassScore", "Error", "Explanation", "Features", "File", "Generalised", "Issue", "Items",
-    "Lists", "Miss", "Pack", "Place", "Repaired", "Result", "Score", "Truth", "__version__", "embedded_packs", "explain",
+    "Lists", "Miss", "Pack", "Param", "Place", "Repaired", "Result", "Score", "Truth", "__version__", "embedded_packs", "explain",
     "explain_json", "features", "generalise", "interpret", "label", "read", "read_features", "read_text", "read_truth",
     "relation_schema", "repair", "schema", "score", "segment", "to_text", "write", "write_features",
 ]

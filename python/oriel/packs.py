@@ -2,10 +2,22 @@
 from __future__ import annotations
 
 import os
-from typing import Union
+from typing import NamedTuple, Optional, Union
 
 from . import _oriel
 from .errors import Error
+
+
+class Param(NamedTuple):
+    """A number of a pack that may be set to another value."""
+
+    name: str
+    value: float
+    unit: str
+    """m, m2, m3, deg, or empty."""
+    range: Optional[tuple[float, float]]
+    """The values that it may have, ends included; None: any."""
+    why: str
 
 
 class Pack:
@@ -26,6 +38,23 @@ class Pack:
         pack = cls.__new__(cls)
         pack._take(*_oriel.load_pack(text, file))
         return pack
+
+    def with_params(self, **values: Union[float, str]) -> Pack:
+        """The pack with params at other values: numbers in the unit of the param, or texts with it, "0.8 m".
+
+        Labels are those of a pack that extends this one and states these values. Raises Error: R206 no such param, R212
+        a value beyond the param's range, R230 and R231 a wrong or missing unit of a text.
+        """
+        numbers = [(name, float(value)) for name, value in values.items() if not isinstance(value, str)]
+        texts = [f"{name}={value}" for name, value in values.items() if isinstance(value, str)]
+        pack = Pack.__new__(Pack)
+        pack._take(*_oriel.with_params(self._base, numbers, texts))
+        return pack
+
+    @property
+    def params(self) -> dict[str, Param]:
+        """The params by name, in the order of the pack."""
+        return {row[0]: Param(*row) for row in _oriel.param_rows(self._base)}
 
     def _take(self, base: Union[_oriel.RuleBase, None], issues: list[_oriel.Issue]) -> None:
         if base is None:

@@ -239,6 +239,25 @@ std::vector<Explanation> explain_all(const StageResult& labelled) {
                                      : std::vector<Explanation>{};
 }
 
+using Params = std::vector<std::pair<std::string, double>>;
+
+/// Params at other values: numbers in the units of the pack, then texts, "parapet=0.8 m".
+PackOrIssues changed_pack(const RuleBase& base, const Params& numbers,
+                          const std::vector<std::string>& texts) {
+  std::vector<ParamValue> values;
+  for (const auto& [name, value] : numbers) values.push_back({name, value});
+  auto changed = with_params(base, values);
+  if (changed.value && !texts.empty()) changed = with_params(*changed.value, texts);
+  return {std::move(changed.value), std::move(changed.issues)};
+}
+
+py::list param_rows(const RuleBase& base) {
+  py::list rows;
+  for (const PackParam& param : params_of(base))
+    rows.append(py::make_tuple(param.name, param.value, param.unit, param.range, param.why));
+  return rows;
+}
+
 void bind_packs(py::module_& module) {
   py::class_<RuleBase>(module, "RuleBase", "A rule pack that was checked and is ready to be run.")
       .def_property_readonly("name", &RuleBase::name)
@@ -263,6 +282,8 @@ void bind_packs(py::module_& module) {
         return PackOrIssues(std::move(loaded.value), std::move(loaded.issues));
       },
       Unlocked());
+  module.def("with_params", &changed_pack, Unlocked());
+  module.def("param_rows", &param_rows);
   module.def("embedded_packs", &embedded_packs);
 }
 

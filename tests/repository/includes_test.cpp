@@ -89,6 +89,14 @@ TEST_SUITE("repository") {
     CHECK(included.size() > kAllowed.size());
   }
 
+  TEST_CASE("the Python module calls the front door only") {
+    const auto included = included_by(fs::path(ORIEL_SOURCE_DIR) / "python");
+    CHECK(included.size() > 5);
+    for (const auto& [header, file] : included)
+      CHECK_MESSAGE((header.starts_with("python/") || is_of_the_door(header)), file, " includes ",
+                    header);
+  }
+
   // Its classes have other members there: the library is compiled with definitions of its own.
   TEST_CASE("no test includes simdjson, itself or by way of other headers") {
     const fs::path sources(ORIEL_SOURCE_DIR);
