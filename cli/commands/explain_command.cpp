@@ -26,9 +26,8 @@ namespace oriel::cli {
 
 namespace {
 
-struct ExplainArguments : RunOptions {
+struct ExplainArguments : RunOptions, RulesChoice {
   std::string feature;
-  std::string rules = "residential";
   /// Of it only; empty: of the winner and what came near it.
   std::string rule;
   int surface = -1;
@@ -79,7 +78,7 @@ void check_fit_for_surface(const ExplainArguments& arguments) {
 /// What lies at a place: the feature there, or the surface where there is none.
 ExitCode explain_place(const ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
@@ -114,7 +113,7 @@ ExitCode explain_place(const ExplainArguments& arguments) {
 /// The surface of that number in every building that has one.
 ExitCode explain_surfaces(const ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   BatchRunner runner(arguments, &*rules, report);
   std::string text;
@@ -199,7 +198,7 @@ std::string table_of(const Building& building, const PipelineResult& line, bool 
 ExitCode explain_buildings(const ExplainArguments& arguments) {
   if (!arguments.rule.empty()) throw CLI::ValidationError("--rule", "needs a feature");
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   BatchRunner runner(arguments, &*rules, report);
   std::string text;
@@ -278,7 +277,7 @@ ExitCode work(ExplainArguments& arguments) {
   if (arguments.surface >= 0) return explain_surfaces(arguments);
   if (!arguments.at.empty()) return explain_place(arguments);
   if (arguments.feature.empty()) return explain_buildings(arguments);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
@@ -343,7 +342,7 @@ void add_explain(CLI::App& app, Action& action) {
       ->type_name("X,Y,Z")
       ->excludes(feature)
       ->excludes(surface);
-  add_rules_argument(*command, arguments->rules);
+  add_rules_arguments(*command, *arguments);
   command
       ->add_option("--id", arguments->selection.ids,
                    "Only the building with this id; the others are read and skipped")

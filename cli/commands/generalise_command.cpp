@@ -322,7 +322,7 @@ ExitCode work(GeneraliseArguments& arguments) {
   if (!arguments.at.empty())
     return write_level_at(arguments.from, denominator_of(arguments.at, "--at"), arguments.out,
                           report);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   if (const auto code = make_series(arguments, *rules, report)) return *code;
   const auto targets = targets_of(arguments.target, *rules, report);

@@ -33,9 +33,8 @@ namespace oriel::cli {
 
 namespace {
 
-struct InterpretArguments {
+struct InterpretArguments : RulesChoice {
   std::vector<std::string> records;
-  std::string rules = "residential";
   std::string out;
   bool has_safe_cells = false;
   std::size_t examples = 3;
@@ -199,7 +198,8 @@ void print_now(const std::string& text) {
 }
 
 /// Interprets again whenever the pack, or one that it extends, is saved; ends by a signal only. A
-/// pack with errors changes nothing: what comes next is compared with the last labels.
+/// pack with errors, or without a param that is set, changes nothing: what comes next is compared
+/// with the last labels.
 [[noreturn]] void watch(const InterpretArguments& arguments, const StoredFeatures& features,
                         Report& report) {
   FileWatch files;
@@ -208,8 +208,9 @@ void print_now(const std::string& text) {
   bool is_first = true;
   while (true) {
     const auto start = std::chrono::steady_clock::now();
-    if (const auto rules = load_rules(arguments.rules, report)) {
-      files.follow(rules->files());
+    const auto pack = load_pack(arguments.rules, report);
+    if (pack) files.follow(pack->files());
+    if (const auto rules = pack ? with_params(*pack, arguments.params, report) : std::nullopt) {
       auto run = features.interpreted(*rules, arguments.jobs);
       print_now(is_first
                     ? listing(run)
@@ -240,7 +241,7 @@ ExitCode work(InterpretArguments& arguments) {
     if (features.code() == ExitCode::input) return ExitCode::input;
     watch(arguments, features, report);
   }
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   StoredFeatures features(arguments.records, report);
   const auto run = features.interpreted(*rules, arguments.jobs);
@@ -263,7 +264,7 @@ void add_interpret(CLI::App& app, Action& action) {
       ->add_option("records", arguments->records,
                    "Records of features, as segment or label --features writes them")
       ->required();
-  add_rules_argument(*command, arguments->rules);
+  add_rules_arguments(*command, *arguments);
   add_records_output(*command, "-o,--output", arguments->out,
                      "Write the records with their new labels: .csv, .json or .jsonl");
   add_safe_cells_argument(*command, arguments->has_safe_cells);

@@ -76,7 +76,7 @@ ExitCode audit(const LabelArguments& arguments) {
   if (!arguments.out.empty() || !arguments.features.empty())
     throw CLI::ValidationError("--existing", "audit changes nothing: leave out -o and --features");
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   BatchRunner runner(arguments, &*rules, report);
   SurfaceScore score;
@@ -171,7 +171,7 @@ ExitCode work(LabelArguments& arguments) {
   arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
                                    !arguments.has_reasons && !arguments.is_repaired;
   if (arguments.is_json) throw CLI::ValidationError("--json", "works only with --existing audit");
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   arguments.seeks_features = rules->rule_count() > 0;
   arguments.gives_only_features = arguments.out.empty();

@@ -228,9 +228,15 @@ void add_line_arguments(CLI::App& command, RunOptions& a, bool has_many) {
   add_run_arguments(command, a);
 }
 
-void add_rules_argument(CLI::App& command, std::string& pack) {
-  command.add_option("--rules", pack, "Rule pack: a file, or the name of a built-in pack")
+void add_rules_arguments(CLI::App& command, RulesChoice& choice) {
+  command.add_option("--rules", choice.rules, "Rule pack: a file, or the name of a built-in pack")
       ->capture_default_str();
+  command
+      .add_option("--param", choice.params,
+                  "A param of the pack at another value, with its unit and within its range: "
+                  "parapet=0.8m; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
 }
 
 void add_features_argument(CLI::App& command, std::string& file) {
@@ -254,7 +260,7 @@ void add_safe_cells_argument(CLI::App& command, bool& is_safe) {
 
 void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   add_line_arguments(command, a, true);
-  add_rules_argument(command, a.rules);
+  add_rules_arguments(command, a);
   command.add_option("-o,--output", a.out,
                      "File, - for stdout, or a folder (ending in /) for several inputs");
   command.add_option("--to", a.to, "Format to write (default: from the name of the output)")
@@ -278,10 +284,24 @@ std::optional<Issue> no_names(const SurfaceScore& score, int buildings) {
                   counted(buildings, "building")));
 }
 
-std::optional<RuleBase> load_rules(const std::string& pack, Report& report) {
+std::optional<RuleBase> load_pack(const std::string& pack, Report& report) {
   auto loaded = load_pack_file(pack);
   report.add(loaded.issues);
   return loaded.value;
+}
+
+std::optional<RuleBase> with_params(const RuleBase& pack, const std::vector<std::string>& params,
+                                    Report& report) {
+  if (params.empty()) return pack;
+  auto set = oriel::with_params(pack, params);
+  for (Issue& issue : set.issues) issue.place.file.insert(0, "--param ");
+  report.add(set.issues);
+  return set.value;
+}
+
+std::optional<RuleBase> load_rules(const RulesChoice& choice, Report& report) {
+  const auto pack = load_pack(choice.rules, report);
+  return pack ? with_params(*pack, choice.params, report) : std::nullopt;
 }
 
 }  // namespace oriel::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/batch/rules_choice.h"
 #include "cli/batch/run_options.h"
 #include "cli/terminal/logging.h"
 #include "kernel/io/files/format.h"
@@ -7,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -63,8 +65,8 @@ void add_isolate_argument(CLI::App& command, RunOptions& arguments);
 /// Adds all of them to a command. `has_many`: it takes more than one input.
 void add_line_arguments(CLI::App& command, RunOptions& arguments, bool has_many);
 
-/// Adds `--rules PACK`.
-void add_rules_argument(CLI::App& command, std::string& pack);
+/// Adds `--rules PACK` and `--param NAME=VALUE`.
+void add_rules_arguments(CLI::App& command, RulesChoice& choice);
 
 /// Adds `--features FILE`; a name without the ending of a format is wrong usage.
 void add_features_argument(CLI::App& command, std::string& file);
@@ -82,7 +84,11 @@ void add_label_arguments(CLI::App& command, LabellingArguments& arguments);
 /// A warning E131 if no polygon of the `buildings` that were read has a name to compare with.
 std::optional<Issue> no_names(const SurfaceScore& score, int buildings);
 
-/// The pack, with its findings reported; nothing if it cannot be used.
-std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
+/// The pack with its params set, with all findings reported; nothing if it cannot be used.
+std::optional<RuleBase> load_rules(const RulesChoice& choice, Report& report);
+/// The same in two steps.
+std::optional<RuleBase> load_pack(const std::string& pack, Report& report);
+std::optional<RuleBase> with_params(const RuleBase& pack, const std::vector<std::string>& params,
+                                    Report& report);
 
 }  // namespace oriel::cli

@@ -36,9 +36,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ScoreArguments : RunOptions {
+struct ScoreArguments : RunOptions, RulesChoice {
   bool is_of_surfaces = false;
-  std::string rules = "residential";
   std::vector<std::string> truth;
   std::vector<std::string> models;
   double min_iou = ScoreOptions{}.min_iou;
@@ -179,7 +178,7 @@ std::optional<Issue> missing_records(const LabelsAndTruth& all, const ScoreOptio
 ExitCode score_features(const ScoreArguments& arguments) {
   Report report(arguments.is_verbose);
   std::optional<RuleBase> pack;
-  if (arguments.is_by_rule && !(pack = load_rules(arguments.rules, report))) return ExitCode::rules;
+  if (arguments.is_by_rule && !(pack = load_rules(arguments, report))) return ExitCode::rules;
   ExitCode code = ExitCode::clean;
   LabelsAndTruth all;
   for (const std::string& path : arguments.inputs) read_records(path, all, report, code);
@@ -298,7 +297,7 @@ ExitCode score_paired(const ScoreArguments& arguments) {
 /// The models are labelled as if they had no semantics, and their semantics are the truth.
 ExitCode score_surfaces(const ScoreArguments& arguments) {
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   BatchRunner runner(arguments, &*rules, report);
   SurfaceScore score;
@@ -412,7 +411,7 @@ void add_score(CLI::App& app, Action& action) {
   command->add_option("--lod", arguments->lod, "With --surfaces: level of detail to read");
   command->add_option("--budget", arguments->budget,
                       "With --surfaces: most steps that each stage may take on one building");
-  add_rules_argument(*command, arguments->rules);
+  add_rules_arguments(*command, *arguments);
   add_comparison_arguments(*command, *arguments);
   command->add_flag("--json", arguments->is_json, "Print JSON, with all misses");
   command->add_flag("-v,--verbose", arguments->is_verbose,

@@ -18,8 +18,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct ViewArguments : RunOptions {
-  std::string rules = "residential";
+struct ViewArguments : RunOptions, RulesChoice {
   std::string out;
   std::string after;
 };
@@ -99,7 +98,7 @@ ExitCode work(ViewArguments& arguments) {
   settle_inputs(arguments, report);
   check_names(arguments);
   check_page_name(arguments.out);
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   PageData page(*rules);
   std::vector<std::string> ids;
@@ -129,7 +128,7 @@ void add_view(CLI::App& app, Action& action) {
       "view",
       "Write an HTML page that shows buildings; a click on a part shows its label and the reason");
   add_line_arguments(*command, *arguments, true);
-  add_rules_argument(*command, arguments->rules);
+  add_rules_arguments(*command, *arguments);
   command->add_option("-o,--output", arguments->out, "HTML file to write, or - for stdout")
       ->required();
   command->add_option("--after", arguments->after,

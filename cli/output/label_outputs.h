@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/batch/outcome.h"
+#include "cli/batch/rules_choice.h"
 #include "cli/batch/run_options.h"
 #include "cli/output/named_files.h"
 #include "cli/output/output_sink.h"
@@ -16,8 +17,7 @@
 namespace oriel::cli {
 
 /// Arguments of the commands that label buildings and write them.
-struct LabellingArguments : RunOptions {
-  std::string rules = "residential";
+struct LabellingArguments : RunOptions, RulesChoice {
   std::string out;
   std::string to;
   std::string features;
