@@ -95,6 +95,47 @@ std::optional<std::string> add_attribute(FeatureRecord& record, const AttributeI
   return std::nullopt;
 }
 
+/// Relations that part the features of a building into classes, or nearly so.
+bool may_be_of_classes(std::string_view relation) {
+  return relation == "same_facade" || relation == "same_storey" || relation == "alike";
+}
+
+/// The class of each feature, those of one feature left out and the others numbered anew.
+std::vector<std::optional<detail::RelationClass>> relation_classes(
+    const std::vector<int>& class_of_row) {
+  std::vector<int> sizes, numbers;
+  for (const int number : class_of_row) {
+    if (number < 0) continue;
+    sizes.resize(std::max(sizes.size(), static_cast<std::size_t>(number) + 1));
+    ++sizes[static_cast<std::size_t>(number)];
+  }
+  int count = 0;
+  for (const int size : sizes) numbers.push_back(size > 1 ? ++count : 0);
+  std::vector<std::optional<detail::RelationClass>> classes;
+  for (const int number : class_of_row) {
+    const auto at = static_cast<std::size_t>(number);
+    classes.emplace_back();
+    if (number >= 0 && sizes[at] > 1) classes.back() = {numbers[at], sizes[at]};
+  }
+  return classes;
+}
+
+/// Adds what each feature is related to.
+void add_relation(const FeatureTable& table, const FeatureGraph& graph, const std::string& relation,
+                  std::vector<FeatureRecord>& records) {
+  const auto class_of_row =
+      may_be_of_classes(relation) ? classes_of(graph.links(relation)) : std::nullopt;
+  const auto classes = class_of_row ? relation_classes(*class_of_row)
+                                    : std::vector<std::optional<detail::RelationClass>>();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    std::vector<std::string>& related = records[i].relations.emplace_back();
+    if (i < classes.size() && classes[i]) related.push_back(to_string(*classes[i]));
+    if (class_of_row) continue;
+    for (const FeatureId other : graph.others(relation, FeatureId{static_cast<int>(i)}))
+      related.push_back(table.id(other));
+  }
+}
+
 void set_verdicts(std::vector<FeatureRecord>& records, const Segmentation& segmentation,
                   const FeatureTable& table, const Interpretation& interpretation) {
   auto groups = groups_by_feature(interpretation);
@@ -127,7 +168,9 @@ std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells
   for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
     record.relations.push_back(split(cells[at++]));
   record.groups = split(cells[at++]);
-  record.part_of = cells[at];
+  record.part_of = cells[at++];
+  record.corrected_by = cells[at++];
+  record.corrected_why = cells[at];
   return std::nullopt;
 }
 
@@ -143,6 +186,8 @@ const std::vector<std::string>& record_fields() {
       names.push_back("rel_" + relation.name);
     names.emplace_back("groups");
     names.emplace_back("part_of");
+    names.emplace_back("corrected_by");
+    names.emplace_back("corrected_why");
     return names;
   }();
   return fields;
@@ -165,13 +210,10 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     record.aabb_m = {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
     record.source_polygons = feature.source_polygons;
     record.attributes = attributes_of(table, row);
-    for (const RelationKind& relation : detail::recorded_relations()) {
-      record.relations.emplace_back();
-      for (const FeatureId other : graph.others(relation.name, row))
-        record.relations.back().push_back(table.id(other));
-    }
     records.push_back(std::move(record));
   }
+  for (const RelationKind& relation : detail::recorded_relations())
+    add_relation(table, graph, relation.name, records);
   if (interpretation != nullptr) set_verdicts(records, segmentation, table, *interpretation);
   set_names(records);
   return records;
@@ -206,6 +248,8 @@ void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std:
   record.runner_up = verdict.runner_up;
   record.groups = std::move(groups);
   record.part_of = std::move(part_of);
+  record.corrected_by.clear();
+  record.corrected_why.clear();
 }
 
 std::optional<RecordFormat> record_format_of(std::string_view path) {
@@ -215,25 +259,26 @@ std::optional<RecordFormat> record_format_of(std::string_view path) {
   return std::nullopt;
 }
 
-FeatureRecordWriter::FeatureRecordWriter(const std::string& path)
-    : format_(format_to_use(path)), file_(path) {
+FeatureRecordWriter::FeatureRecordWriter(const std::string& path, const RecordColumns& columns)
+    : format_(format_to_use(path)), columns_(columns), file_(path) {
   is_empty_ = file_.size() <= 1;
   if (file_.size() > 0) return;  // it goes on
   std::string head = format_ == RecordFormat::json ? "[" : "";
-  if (format_ == RecordFormat::csv) append_csv_line(head, record_fields());
+  if (format_ == RecordFormat::csv) append_csv_line(head, names_of_columns(columns_));
   file_.append(head);
 }
 
 std::string FeatureRecordWriter::text(RecordFormat format,
-                                      const std::vector<FeatureRecord>& records) {
+                                      const std::vector<FeatureRecord>& records,
+                                      const RecordColumns& columns) {
   std::string text;
   for (const FeatureRecord& record : records) {
     if (format == RecordFormat::csv) {
-      detail::append_csv_record(text, record);
+      detail::append_csv_record(text, record, columns);
       continue;
     }
     if (format == RecordFormat::json && !text.empty()) text += ",\n";
-    detail::append_json_record(text, record);
+    detail::append_json_record(text, record, columns);
     if (format == RecordFormat::jsonl) text += '\n';
   }
   return text;
@@ -246,7 +291,7 @@ void FeatureRecordWriter::append(std::string_view text) {
 }
 
 void FeatureRecordWriter::append(const std::vector<FeatureRecord>& records) {
-  append(text(format_, records));
+  append(text(format_, records, columns_));
 }
 
 void FeatureRecordWriter::commit() {
@@ -267,7 +312,8 @@ std::vector<Issue> visit_feature_records(const std::string& path,
   return issues;
 }
 
-Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path) {
+Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path,
+                                                         RecordColumns* columns) {
   Checked<std::vector<FeatureRecord>> result;
   std::vector<FeatureRecord> records;
   const auto take = [&](const detail::RecordCells& cells) {
@@ -276,18 +322,21 @@ Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path
     if (!fault) records.push_back(std::move(record));
     return fault;
   };
-  if (detail::visit_records(path, take, result.issues)) result.value = std::move(records);
+  if (detail::visit_records(path, take, result.issues, columns)) result.value = std::move(records);
   return result;
 }
 
 namespace detail {
 
-bool visit_records(const std::string& path, const RecordTaker& take, std::vector<Issue>& issues) {
+bool visit_records(const std::string& path, const RecordTaker& take, std::vector<Issue>& issues,
+                   RecordColumns* columns) {
+  RecordColumns unused;
+  RecordColumns& found = columns == nullptr ? unused : *columns;
   const RecordFormat format = format_to_use(path);
   const std::string text = Input(path).read_all();
   const std::string_view bare = without_bom(text);
-  if (format == RecordFormat::csv) return visit_csv_records(bare, {path, 0}, take, issues);
-  return visit_json_records(bare, {path, 0}, format == RecordFormat::jsonl, take, issues);
+  if (format == RecordFormat::csv) return visit_csv_records(bare, {path, 0}, take, issues, found);
+  return visit_json_records(bare, {path, 0}, format == RecordFormat::jsonl, take, issues, found);
 }
 
 const std::vector<RelationKind>& recorded_relations() {
@@ -297,6 +346,22 @@ const std::vector<RelationKind>& recorded_relations() {
     return all;
   }();
   return without_host;
+}
+
+std::string to_string(const RelationClass& related) {
+  return fmt::format("{}{}/{}", kClassMark, related.number, related.size);
+}
+
+std::optional<RelationClass> relation_class_of(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (!text.starts_with(kClassMark) || slash == std::string_view::npos) return std::nullopt;
+  const auto number = as_whole(text.substr(1, slash - 1));
+  const auto size = as_whole(text.substr(slash + 1));
+  const auto fits = [](const auto& count) {
+    return count && *count > 0 && *count <= std::numeric_limits<int>::max();
+  };
+  if (!fits(number) || !fits(size)) return std::nullopt;
+  return RelationClass{static_cast<int>(*number), static_cast<int>(*size)};
 }
 
 std::string no_number(std::string_view field, std::string_view cell) {

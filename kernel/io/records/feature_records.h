@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/io/files/output_file.h"
+#include "kernel/io/records/record_columns.h"
 #include "kernel/model/building.h"
 #include "kernel/model/description/feature_graph.h"
 #include "kernel/model/description/feature_table.h"
@@ -44,17 +45,22 @@ struct FeatureRecord {
   std::vector<int> source_polygons;
   /// One value for each attribute of feature_schema(), in its order; yes/no is 1 and 0.
   std::vector<RecordValue> attributes;
-  /// The ids it is related to, for each relation of relation_schema() but "host", in its order.
+  /// The ids it is related to, for each relation of relation_schema() but "host", in its order. Of
+  /// same_facade, same_storey and alike one text where the features of the building fall into
+  /// classes by it: "#3/12" for each of the twelve in its third class, which are all related.
   std::vector<std::vector<std::string>> relations;
   /// Ids of the groups it is in.
   std::vector<std::string> groups;
   /// Id of the labelled feature that it is a part of (wholes_by_feature()), or empty.
   std::string part_of;
+  /// Who corrected the label and why, where somebody did.
+  std::string corrected_by;
+  std::string corrected_why;
 };
 
 /// The names of a record's fields: building, id, name, label, score, margin, rule, runner_up,
-/// parent, host, aabb_m, source_polygons, record_name() of every attribute, rel_NAME, then groups
-/// and part_of.
+/// parent, host, aabb_m, source_polygons, record_name() of every attribute, rel_NAME, then groups,
+/// part_of, corrected_by and corrected_why.
 const std::vector<std::string>& record_fields();
 
 /// The records of one building, in feature order. `table` and `graph` are those of `segmentation`;
@@ -81,11 +87,13 @@ std::optional<RecordFormat> record_format_of(std::string_view path);
 /// empty. JSON has arrays and null. Throws InputError E106 for another extension, OutputError E601.
 class FeatureRecordWriter {
  public:
-  explicit FeatureRecordWriter(const std::string& path);
+  /// With these columns only.
+  explicit FeatureRecordWriter(const std::string& path, const RecordColumns& columns = {});
   void append(const std::vector<FeatureRecord>& records);
   /// The same in two steps, of which several threads may do the first: records as the format has
   /// them, without what stands before and between them; and putting such a text into the file.
-  static std::string text(RecordFormat format, const std::vector<FeatureRecord>& records);
+  static std::string text(RecordFormat format, const std::vector<FeatureRecord>& records,
+                          const RecordColumns& columns = {});
   void append(std::string_view text);
   /// Puts the file in its place, as OutputFile does.
   void commit();
@@ -94,15 +102,18 @@ class FeatureRecordWriter {
 
  private:
   RecordFormat format_;
+  RecordColumns columns_;
   OutputFile file_;
   bool is_empty_ = true;
 };
 
 /// Reads records back. Fields may come in any order, unknown ones are passed over, absent ones are
-/// missing; "building" and "id" are needed. E111 with the line (of a JSON array: the record's
-/// number) for a record that cannot be read, which is left out; E102 to E105 where the text is not
-/// even CSV or JSON. Throws InputError: E101 the file cannot be read, E106 unknown extension.
-Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path);
+/// missing, and `columns` says which (of JSON those that every record has); "building" and "id" are
+/// needed. E111 with the line (of a JSON array: the record's number) for a record that cannot be
+/// read, which is left out; E102 to E105 where the text is not even CSV or JSON. Throws InputError:
+/// E101 the file cannot be read, E106 unknown extension.
+Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path,
+                                                         RecordColumns* columns = nullptr);
 
 /// The same for tables that are large: `visit` gets one record after the other. Returns the issues.
 std::vector<Issue> visit_feature_records(const std::string& path,

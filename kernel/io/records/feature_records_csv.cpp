@@ -168,7 +168,8 @@ std::optional<std::string> take_line(const std::vector<std::size_t>& fields,
 
 }  // namespace
 
-void append_csv_record(std::string& out, const FeatureRecord& record) {
+void append_csv_record(std::string& out, const FeatureRecord& record,
+                       const RecordColumns& columns) {
   std::vector<std::string> cells{record.building,
                                  record.id,
                                  record.name,
@@ -184,12 +185,16 @@ void append_csv_record(std::string& out, const FeatureRecord& record) {
   for (const RecordValue& value : record.attributes) cells.push_back(cell_of(value));
   for (const auto& ids : record.relations) cells.push_back(joined(ids));
   cells.push_back(joined(record.groups));
-  cells.push_back(record.part_of);
-  append_csv_line(out, cells);
+  cells.insert(cells.end(), {record.part_of, record.corrected_by, record.corrected_why});
+  if (columns.empty()) return append_csv_line(out, cells);
+  std::vector<std::string> wanted;
+  for (std::size_t field = 0; field < cells.size(); ++field)
+    if (columns[field]) wanted.push_back(std::move(cells[field]));
+  append_csv_line(out, wanted);
 }
 
 bool visit_csv_records(std::string_view text, const TextName& name, const RecordTaker& take,
-                       std::vector<Issue>& issues) {
+                       std::vector<Issue>& issues, RecordColumns& columns) {
   CsvReader reader(text);
   std::vector<std::string_view> line;
   std::optional<std::string> fault;
@@ -206,6 +211,7 @@ bool visit_csv_records(std::string_view text, const TextName& name, const Record
     return false;
   }
   const std::vector<std::size_t> fields = fields_of(line);
+  columns = columns_named({line.begin(), line.end()});
   RecordCells record(record_fields().size());
   while (!fault && reader.next_line(line, fault)) {
     const auto wrong = fault ? fault : take_line(fields, line, record, take);

@@ -39,46 +39,53 @@ std::optional<std::string> cell_of(const nlohmann::json& value) {
 }
 
 /// Gives one record away; says what is wrong with it.
-std::optional<std::string> take_object(const nlohmann::json& object, const RecordTaker& take) {
+std::optional<std::string> take_object(const nlohmann::json& object, const RecordTaker& take,
+                                       RecordColumns& columns) {
   if (!object.is_object())
     return fmt::format("a record is {}; expected an object", object.type_name());
   const auto& fields = record_fields();
   std::vector<std::string> values(fields.size());
+  RecordColumns found(fields.size());
   for (const auto& [key, value] : object.items()) {
     const auto field = static_cast<std::size_t>(std::ranges::find(fields, key) - fields.begin());
     if (field == fields.size()) continue;
+    found[field] = true;
     auto cell = cell_of(value);
     if (!cell) return fmt::format("'{}' holds an object or nested arrays", key);
     values[field] = std::move(*cell);
   }
   if (values[record_field::building].empty() || values[record_field::id].empty())
     return "'building' or 'id' is missing";
+  columns = common_columns(columns, found);
   return take(RecordCells(values.begin(), values.end()));
 }
 
 void take_record(const nlohmann::json& object, const TextName& name, const std::string& prefix,
-                 const RecordTaker& take, std::vector<Issue>& issues) {
-  if (const auto fault = take_object(object, take))
+                 const RecordTaker& take, std::vector<Issue>& issues, RecordColumns& columns) {
+  if (const auto fault = take_object(object, take, columns))
     issues.push_back(error_in(name, {Code::E111, prefix + *fault}));
 }
 
 }  // namespace
 
-void append_json_record(std::string& out, const FeatureRecord& record) {
+void append_json_record(std::string& out, const FeatureRecord& record,
+                        const RecordColumns& columns) {
   const auto& fields = record_fields();
   std::size_t field = 0;
-  const auto key = [&] { append_json_key(out, fields[field++]); };
+  /// False for a field that is not wanted.
+  const auto key = [&] {
+    const std::size_t at = field++;
+    if (has_column(columns, at)) append_json_key(out, fields[at]);
+    return has_column(columns, at);
+  };
   const auto text = [&](const std::string& value) {
-    key();
-    detail::append_json(out, std::string_view(value));
+    if (key()) detail::append_json(out, std::string_view(value));
   };
   const auto number = [&](const std::optional<double>& value) {
-    key();
-    append_json(out, value);
+    if (key()) append_json(out, value);
   };
   const auto list = [&](const auto& values) {
-    key();
-    append_json_array(out, values);
+    if (key()) append_json_array(out, values);
   };
   out += '{';
   text(record.building);
@@ -93,18 +100,20 @@ void append_json_record(std::string& out, const FeatureRecord& record) {
   text(record.host);
   list(record.aabb_m);
   list(record.source_polygons);
-  for (const RecordValue& value : record.attributes) {
-    key();
-    append_json(out, value);
-  }
+  for (const RecordValue& value : record.attributes)
+    if (key()) append_json(out, value);
   for (const auto& ids : record.relations) list(ids);
   list(record.groups);
   text(record.part_of);
+  text(record.corrected_by);
+  text(record.corrected_why);
   out += '}';
 }
 
 bool visit_json_records(std::string_view text, const TextName& name, bool is_lines,
-                        const RecordTaker& take, std::vector<Issue>& issues) {
+                        const RecordTaker& take, std::vector<Issue>& issues,
+                        RecordColumns& columns) {
+  columns.clear();
   if (!is_lines) {
     const auto root = parse_slowly(name, text, issues);
     if (!root) return false;
@@ -116,7 +125,7 @@ bool visit_json_records(std::string_view text, const TextName& name, bool is_lin
       return false;
     }
     for (std::size_t i = 0; i < root->size(); ++i)
-      take_record((*root)[i], name, fmt::format("record {}: ", i), take, issues);
+      take_record((*root)[i], name, fmt::format("record {}: ", i), take, issues, columns);
     return true;
   }
   TextName line{name.file, 0};
@@ -127,7 +136,7 @@ bool visit_json_records(std::string_view text, const TextName& name, bool is_lin
     ++line.line;
     if (record.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     if (const auto object = parse_slowly(line, record, issues))
-      take_record(*object, line, "", take, issues);
+      take_record(*object, line, "", take, issues, columns);
   }
   return true;
 }

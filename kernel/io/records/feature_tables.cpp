@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -25,6 +26,19 @@ struct TextHash {
   }
 };
 
+/// Says what is wrong with a class of related features.
+std::optional<std::string> wrong_class(const detail::RecordCells& cells) {
+  const std::size_t first = field::first_attribute + feature_schema().size();
+  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
+    if (const std::string_view cell = cells[first + r];
+        cell.starts_with(detail::kClassMark) && !detail::relation_class_of(cell))
+      return fmt::format(
+          "'{}' is {}; expected ids joined by ';', or a class and the number of its "
+          "features, such as #3/12",
+          record_fields()[first + r], detail::in_quotes(cell));
+  return std::nullopt;
+}
+
 /// Collects the records of one building after the other.
 class TableBuilder {
  public:
@@ -41,7 +55,10 @@ class TableBuilder {
   std::optional<std::string> add_attributes(const detail::RecordCells& cells);
   [[nodiscard]] FeatureTable make_table() const;
   FeatureGraph make_graph();
+  bool set_classes(const std::string& name, std::size_t relation, FeatureGraph& graph);
+  [[nodiscard]] std::string_view list_of(std::size_t row, std::size_t relation) const;
   std::vector<FeatureGraph::Pair> make_pairs(std::size_t relation);
+  std::map<std::string_view, std::vector<FeatureId>> classes_in(std::size_t relation);
 
   Checked<std::vector<DescribedBuilding>>* result_;
   std::string building_;
@@ -65,6 +82,7 @@ std::optional<std::string> TableBuilder::add(const detail::RecordCells& cells) {
   }
   if (rows_.contains(cells[field::id]))
     return fmt::format("the building '{}' has a feature '{}' already", building_, cells[field::id]);
+  if (auto fault = wrong_class(cells)) return fault;
   const std::size_t numbers = numbers_.size(), texts = texts_.size();
   texts_.emplace_back(cells[field::id]);
   if (auto fault = add_attributes(cells)) {
@@ -114,14 +132,37 @@ FeatureTable TableBuilder::make_table() const {
   return table;
 }
 
+/// What the host (0) or a recorded relation (1 …) of a row says.
+std::string_view TableBuilder::list_of(std::size_t row, std::size_t relation) const {
+  const std::size_t list = row * (detail::recorded_relations().size() + 1) + relation;
+  const std::size_t begin = list == 0 ? 0 : list_ends_[list - 1];
+  return std::string_view(lists_).substr(begin, list_ends_[list] - begin);
+}
+
+/// The features of each class by its text. Those that are not in the file are counted.
+std::map<std::string_view, std::vector<FeatureId>> TableBuilder::classes_in(std::size_t relation) {
+  std::map<std::string_view, std::vector<FeatureId>> classes;
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    if (const std::string_view text = list_of(row, relation); text.starts_with(detail::kClassMark))
+      classes[text].push_back(FeatureId{static_cast<int>(row)});
+  for (const auto& [text, features] : classes) {
+    const auto size = static_cast<std::size_t>(detail::relation_class_of(text)->size);
+    if (features.size() >= size) continue;
+    if (dangling_ == 0) first_dangling_ = text;
+    dangling_ += features.size() * (size - features.size());
+  }
+  return classes;
+}
+
 /// The pairs of the host (0) or of a recorded relation (1 …).
 std::vector<FeatureGraph::Pair> TableBuilder::make_pairs(std::size_t relation) {
   std::vector<FeatureGraph::Pair> pairs;
-  const std::size_t lists = detail::recorded_relations().size() + 1;
+  for (const auto& [text, features] : classes_in(relation))
+    for (const FeatureId self : features)
+      for (const FeatureId other : features) pairs.emplace_back(self, other);
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::size_t list = row * lists + relation;
-    const std::size_t begin = list == 0 ? 0 : list_ends_[list - 1];
-    const std::string_view ids = std::string_view(lists_).substr(begin, list_ends_[list] - begin);
+    const std::string_view ids = list_of(row, relation);
+    if (ids.starts_with(detail::kClassMark)) continue;
     detail::for_each_part(ids, [&](std::string_view id) {
       const auto found = rows_.find(id);
       if (found != rows_.end())
@@ -136,9 +177,32 @@ std::vector<FeatureGraph::Pair> TableBuilder::make_pairs(std::size_t relation) {
 FeatureGraph TableBuilder::make_graph() {
   FeatureGraph graph;
   graph.set("host", make_pairs(0));
-  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
-    graph.set(detail::recorded_relations()[r].name, make_pairs(r + 1));
+  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r) {
+    const std::string& name = detail::recorded_relations()[r].name;
+    if (!set_classes(name, r + 1, graph)) graph.set(name, make_pairs(r + 1));
+  }
   return graph;
+}
+
+/// Sets a relation of which every feature that has one has a class; else false.
+bool TableBuilder::set_classes(const std::string& name, std::size_t relation, FeatureGraph& graph) {
+  bool has_class = false;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string_view text = list_of(row, relation);
+    if (!text.empty() && !text.starts_with(detail::kClassMark)) return false;
+    has_class = has_class || !text.empty();
+  }
+  if (!has_class) return false;
+  classes_in(relation);  // counts those that are not in the file
+  std::vector<int> class_of_row;
+  std::map<std::string_view, int> numbers;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string_view text = list_of(row, relation);
+    const int next = static_cast<int>(numbers.size());
+    class_of_row.push_back(text.empty() ? -1 : numbers.try_emplace(text, next).first->second);
+  }
+  graph.set_classes(name, class_of_row);
+  return true;
 }
 
 void TableBuilder::finish() {
@@ -161,11 +225,12 @@ void TableBuilder::finish() {
 
 }  // namespace
 
-Checked<std::vector<DescribedBuilding>> read_feature_tables(const std::string& path) {
+Checked<std::vector<DescribedBuilding>> read_feature_tables(const std::string& path,
+                                                            RecordColumns* columns) {
   Checked<std::vector<DescribedBuilding>> result;
   TableBuilder builder(result);
   const auto add = [&](const detail::RecordCells& cells) { return builder.add(cells); };
-  if (detail::visit_records(path, add, result.issues))
+  if (detail::visit_records(path, add, result.issues, columns))
     builder.finish();
   else
     result.value.reset();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
+#include "kernel/io/records/record_columns.h"
 #include "kernel/model/description/feature_graph.h"
 
 #include <string>
@@ -14,7 +15,9 @@ namespace oriel {
 ///
 /// Issues beside those of read_feature_records: E111 for a second record of the same id in a
 /// building, which is left out; E121 (warning) for each building whose relations lead to features
-/// that are not in the file. Throws InputError as read_feature_records does.
-Checked<std::vector<DescribedBuilding>> read_feature_tables(const std::string& path);
+/// that are not in the file. Throws InputError as read_feature_records does. `columns` becomes what
+/// the table has: what a pack reads and the table lacks is missing in every feature.
+Checked<std::vector<DescribedBuilding>> read_feature_tables(const std::string& path,
+                                                            RecordColumns* columns = nullptr);
 
 }  // namespace oriel

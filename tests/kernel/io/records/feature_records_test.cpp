@@ -129,6 +129,40 @@ TEST_SUITE("kernel/io") {
     CHECK(nlohmann::json::parse(written({}, "f.json")).empty());
   }
 
+  TEST_CASE("a table has the columns that are asked for in the order of the fields") {
+    const RecordColumns columns = columns_named({"rel_alike", "label", "volume_m3", "no such"});
+    CHECK(names_of_columns(columns) ==
+          std::vector<std::string>{"building", "id", "label", "volume_m3", "rel_alike"});
+    CHECK(names_of_columns({}) == record_fields());
+    CHECK_FALSE(has_columns_of_names(columns));
+    CHECK(has_columns_of_names({}));
+    for (const char* name : {"f.csv", "f.json", "f.jsonl"}) {
+      CAPTURE(name);
+      const test::TemporaryFolder folder;
+      FeatureRecordWriter writer(folder.file(name), columns);
+      writer.append(sample(true));
+      writer.commit();
+      RecordColumns found;
+      const auto back = read_feature_records(folder.file(name), &found);
+      CHECK(back.issues.empty());
+      CHECK(found == columns);
+      REQUIRE(back.value->size() == 2);
+      CHECK(back.value->at(1).relations == sample(true)[1].relations);
+      CHECK(back.value->at(0).rule.empty());
+    }
+  }
+
+  TEST_CASE("columns of JSON are those that every record has") {
+    const test::TemporaryFolder folder;
+    const std::string file =
+        folder.write("f.jsonl",
+                     "{\"id\":\"a\",\"building\":\"h\",\"label\":\"x\",\"rule\":null}\n"
+                     "{\"id\":\"b\",\"building\":\"h\",\"rule\":\"r\"}\n");
+    RecordColumns found;
+    CHECK(read_feature_records(file, &found).issues.empty());
+    CHECK(names_of_columns(found) == std::vector<std::string>{"building", "id", "rule"});
+  }
+
   TEST_CASE("fields may come in any order and be few") {
     const auto csv = read_back("id,x,building,host\r\nw1,?,house,\"b\n1\"\r\n", "f.csv");
     CHECK(csv.issues.empty());

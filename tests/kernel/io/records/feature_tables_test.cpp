@@ -54,6 +54,37 @@ TEST_SUITE("kernel/io") {
     }
   }
 
+  TEST_CASE("features of a class are related as those of lists are") {
+    const std::string head = "building,id,rel_same_storey\n";
+    const auto classes =
+        tables_of(head + "h,a,#1/3\nh,b,#2/2\nh,c,#1/3\nh,d,\nh,e,#2/2\nh,f,#1/3\n", "f.csv");
+    const auto lists = tables_of(head + "h,a,c;f\nh,b,e\nh,c,a;f\nh,d,\nh,e,b\nh,f,a;c\n", "f.csv");
+    const auto mixed =
+        tables_of(head + "h,a,c;f\nh,b,#2/2\nh,c,a;f\nh,d,\nh,e,#2/2\nh,f,a;c\n", "f.csv");
+    REQUIRE((classes.value && lists.value && mixed.value));
+    CHECK((classes.issues.empty() && lists.issues.empty() && mixed.issues.empty()));
+    const auto pairs = lists.value->front().graph.pairs("same_storey");
+    CHECK(pairs.size() == 8);
+    CHECK(classes.value->front().graph.pairs("same_storey") == pairs);
+    CHECK(mixed.value->front().graph.pairs("same_storey") == pairs);
+  }
+
+  TEST_CASE(
+      "a class with fewer features than it says is reported and one that is none costs its "
+      "record") {
+    const auto fewer = tables_of("building,id,rel_same_storey\nh,a,#1/4\nh,b,#1/4\n", "f.csv");
+    CHECK(codes_of(fewer.issues) == "E121");
+    CHECK(fewer.issues[0].sentence.find("4 relations") != std::string::npos);
+    CHECK(fewer.value->front().graph.pairs("same_storey").size() == 2);
+    for (const char* text : {"#", "#1", "#x/2", "#0/2", "#1/0", "#1/2;b", "#1/99999999999"}) {
+      CAPTURE(text);
+      const auto bad =
+          tables_of("building,id,rel_same_storey\nh,a,\nh,b," + std::string(text) + "\n", "f.csv");
+      CHECK(codes_of(bad.issues) == "E111");
+      CHECK(bad.value->front().table.rows() == 1);
+    }
+  }
+
   TEST_CASE("each building has a table of its own") {
     const auto read = tables_of("building,id,a_m,rel_beside\nh,f,1,g\nh,g,2,\nk,f,3,\n", "f.csv");
     CHECK(read.issues.empty());
