@@ -15,7 +15,7 @@ namespace oriel::python {
 namespace {
 
 using Files = std::vector<std::shared_ptr<const ReadFile>>;
-using MadeList = std::vector<std::shared_ptr<const Made>>;
+using MadeList = std::vector<std::shared_ptr<const MadeItem>>;
 
 /// `name` is what places and the record are called by; a text was put into a file for reading.
 std::shared_ptr<const ReadFile> read_file(const std::string& path, const std::string& name,
@@ -149,10 +149,10 @@ void bind_buildings(py::module_& module) {
                "': " + std::to_string(b.building().polygons.size()) + " polygons>";
       });
   // Shared values are not changed by anybody: const is dropped for pybind11's sake only.
-  py::class_<Made, std::shared_ptr<Made>>(module, "Made", "What was made of a building.")
-      .def_property_readonly("building", &Made::of, "The building that it was made of.")
-      .def_property_readonly("id", [](const Made& made) { return made.of().building().id; })
-      .def_property_readonly("issues", &Made::issues,
+  py::class_<MadeItem, std::shared_ptr<MadeItem>>(module, "Made", "What was made of a building.")
+      .def_property_readonly("building", &MadeItem::of, "The building that it was made of.")
+      .def_property_readonly("id", [](const MadeItem& made) { return made.of().building().id; })
+      .def_property_readonly("issues", &MadeItem::issues,
                              "What was found on the way; an error says why nothing was made.");
   module.def("read", &read_file, Unlocked());
   module.def("write", &write_file, Unlocked());

@@ -56,12 +56,12 @@ struct StageOptions : GeneraliseOptions {
 };
 
 /// What was made of a building and can be written.
-class Made {
+class MadeItem {
  public:
-  explicit Made(ReadBuilding of) : of_(std::move(of)) {}
-  virtual ~Made() = default;
-  Made(const Made&) = delete;
-  Made& operator=(const Made&) = delete;
+  explicit MadeItem(ReadBuilding of) : of_(std::move(of)) {}
+  virtual ~MadeItem() = default;
+  MadeItem(const MadeItem&) = delete;
+  MadeItem& operator=(const MadeItem&) = delete;
 
   [[nodiscard]] const ReadBuilding& of() const { return of_; }
   [[nodiscard]] virtual const std::vector<Issue>& issues() const = 0;
@@ -77,12 +77,12 @@ class Made {
 };
 
 /// What segment() or label() said of a building.
-class StageResult final : public Made {
+class StageResult final : public MadeItem {
  public:
   /// `alone` is the building without joined installations, if that was labelled.
   StageResult(ReadBuilding of, std::optional<Building> alone, std::optional<RuleBase> rules,
               StageOptions options, PipelineResult result)
-      : Made(std::move(of)),
+      : MadeItem(std::move(of)),
         alone_(std::move(alone)),
         rules_(std::move(rules)),
         options_(std::move(options)),

@@ -23,10 +23,10 @@ namespace {
 using PackOrIssues = std::pair<std::optional<RuleBase>, std::vector<Issue>>;
 
 /// What repair() made of a building.
-class RepairedBuilding final : public Made {
+class RepairedBuilding final : public MadeItem {
  public:
   RepairedBuilding(ReadBuilding of, Repaired repaired)
-      : Made(std::move(of)), repaired_(std::move(repaired)) {}
+      : MadeItem(std::move(of)), repaired_(std::move(repaired)) {}
 
   [[nodiscard]] const Repaired& repaired() const { return repaired_; }
   [[nodiscard]] const std::vector<Issue>& issues() const override { return repaired_.issues; }
@@ -39,11 +39,11 @@ class RepairedBuilding final : public Made {
 };
 
 /// What generalise() made of a building.
-class RedrawnBuilding final : public Made {
+class RedrawnBuilding final : public MadeItem {
  public:
   RedrawnBuilding(std::shared_ptr<const StageResult> labelled, StlSolids solids,
                   GeneralisedBuilding drawn)
-      : Made(labelled->of()),
+      : MadeItem(labelled->of()),
         labelled_(std::move(labelled)),
         solids_(solids),
         drawn_(std::move(drawn)) {}
@@ -341,7 +341,7 @@ std::string state_of(const StageResult& self) {
 void bind_results(py::module_& module) {
   py::class_<StageOptions>(module, "StageOptions").def(py::init(&options_of));
   py::class_<Targets>(module, "Targets").def("__str__", &Targets::text);
-  py::class_<StageResult, Made, std::shared_ptr<StageResult>>(
+  py::class_<StageResult, MadeItem, std::shared_ptr<StageResult>>(
       module, "Result", "All that segment() or label() found of a building.")
       .def_property_readonly(
           "is_done", [](const StageResult& r) { return r.result().is_done(); },
@@ -359,7 +359,7 @@ void bind_results(py::module_& module) {
       .def("__repr__", [](const StageResult& r) {
         return "<oriel.Result '" + r.of().building().id + "': " + state_of(r) + ">";
       });
-  py::class_<RepairedBuilding, Made, std::shared_ptr<RepairedBuilding>>(
+  py::class_<RepairedBuilding, MadeItem, std::shared_ptr<RepairedBuilding>>(
       module, "Repaired",
       "A building whose polygons were made a valid solid, or that was rejected.")
       .def_property_readonly(
@@ -380,7 +380,7 @@ void bind_results(py::module_& module) {
                                                              : "closed already";
         return "<oriel.Repaired '" + r.of().building().id + "': " + state + ">";
       });
-  py::class_<RedrawnBuilding, Made, std::shared_ptr<RedrawnBuilding>>(
+  py::class_<RedrawnBuilding, MadeItem, std::shared_ptr<RedrawnBuilding>>(
       module, "Generalised", "A building redrawn for a scale or for levels of detail.")
       .def_property_readonly("is_drawn", &RedrawnBuilding::is_drawn,
                              "It was redrawn; if not, `issues` says why.")
