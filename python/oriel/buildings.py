@@ -66,11 +66,13 @@ def read(path: Path, *, lod: str = "", from_: str = "") -> Items[Building]:
 
 
 def read_text(text: str, *, from_: str = "cityjson", lod: str = "", name: str = "text") -> Items[Building]:
-    """The same of the text of a file; `name` is what places and messages call it."""
-    with tempfile.NamedTemporaryFile("w", encoding="utf-8", newline="", prefix="oriel-") as file:
-        file.write(text)
-        file.flush()
-        return _buildings_of(_oriel.read(file.name, name, lod, from_))
+    """The same of the text of a file; `name` is what places and messages call it, and the id of a mesh without its
+    ending."""
+    with tempfile.TemporaryDirectory(prefix="oriel-") as folder:
+        path = os.path.join(folder, os.path.basename(name) or "text")
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            file.write(text)
+        return _buildings_of(_oriel.read(path, name, lod, from_))
 
 
 def _buildings_of(file: File) -> Items[Building]:

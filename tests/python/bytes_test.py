@@ -60,6 +60,13 @@ class BytesTest(FolderTest):
         again = oriel.read_text(stream.read_text(), from_="cityjsonseq")
         self.assertEqual(oriel.to_text(oriel.label(again)), oriel.to_text(labelled))
 
+    def test_the_text_of_a_mesh_is_called_by_its_name(self):
+        mesh = self.folder / "house.obj"
+        oriel.write(mesh, oriel.read(HOUSE))
+        by_text = oriel.read_text(mesh.read_text(), from_="obj", name="house.obj")
+        self.assertEqual(by_text[0].id, "house")
+        self.assertEqual(oriel.to_text(oriel.label(by_text)), oriel.to_text(oriel.label(mesh)))
+
     def test_what_was_not_labelled_stays_unchanged(self):
         stream, _ = self.houses()
         buildings = oriel.read(stream)
