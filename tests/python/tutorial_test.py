@@ -34,6 +34,9 @@ class TutorialTest(FolderTest):
             self.skipTest("matplotlib is not installed: the table was printed without a picture")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("<svg", picture.read_text(encoding="utf-8"))
+        again = self.folder / "again.svg"
+        call(stream, "--truth", truth, "--steps", 3, "-o", again)
+        self.assert_same_bytes(picture, again)
 
     def test_a_param_or_a_file_that_is_not_there_is_named(self):
         stream, truth = self.houses(1)
