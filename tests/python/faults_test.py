@@ -4,7 +4,7 @@ import io
 import unittest
 
 import oriel
-from support import HOUSE, OPEN_CUBE, SAMPLES, TRUTH, FolderTest
+from support import HOUSE, OPEN_CUBE, SAMPLES, SOURCES, TRUTH, FolderTest, run
 
 PACK = """schema: oriel/1
 pack: {name: wrong, version: 1.0.0}
@@ -73,6 +73,25 @@ class FaultsTest(FolderTest):
         self.assertFalse(drawn[0].is_drawn)
         self.assertEqual(drawn.issues[-1].place.building, "cube")
         self.assertEqual(oriel.to_text(drawn), OPEN_CUBE)
+
+    def test_a_faulty_file_gives_the_bytes_of_the_command(self):
+        inputs = [path for path in sorted((SOURCES / "tests" / "data" / "errors").iterdir())
+                  if path.suffix in (".json", ".jsonl", ".gml", ".obj", ".off", ".ply")]
+        self.assertGreater(len(inputs), 20)
+        for path in inputs:
+            name = "out.city.jsonl" if path.suffix == ".jsonl" else "out.city.json"
+            ours, theirs = self.folder / name, self.folder / ("theirs." + name)
+            with self.subTest(path.name):
+                try:
+                    oriel.write(ours, oriel.label(path))
+                except oriel.Error as error:
+                    self.assertTrue(error.code)
+                run("label", path, "-o", theirs)
+                self.assertEqual(ours.exists(), theirs.exists())
+                if ours.exists():
+                    self.assert_same_bytes(ours, theirs)
+                ours.unlink(missing_ok=True)
+                theirs.unlink(missing_ok=True)
 
     def test_nothing_half_written_is_left(self):
         labelled = oriel.label(HOUSE)
