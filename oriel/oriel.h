@@ -4,6 +4,7 @@
 /// each one function, and what is asked of the results: explain, score, validate. docs/library.md
 /// shows them at work.
 
+#include "oriel/count.h"       // IWYU pragma: export
 #include "oriel/explain.h"     // IWYU pragma: export
 #include "oriel/generalise.h"  // IWYU pragma: export
 #include "oriel/interpret.h"   // IWYU pragma: export

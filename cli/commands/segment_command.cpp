@@ -2,16 +2,19 @@
 #include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/paper_table.h"
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
+#include "oriel/count.h"
 #include "oriel/explain.h"
 #include "oriel/segment.h"
 #include "oriel/write.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -27,6 +30,7 @@ struct SegmentArguments : RunOptions {
   bool is_json = false;
   bool has_faces = false;
   bool has_tree = false;
+  bool counts_as_paper = false;
   std::string out = "-";
   std::string features;
   bool has_safe_cells = false;
@@ -171,7 +175,8 @@ class Segmenter final : public VisitingCommand {
         warn_of_budget(building, "finding faces", "its faces and contacts are left out");
     }
     const std::string text =
-        arguments_.has_tree ? tree_text(building, line)
+        arguments_.has_tree          ? tree_text(building, line)
+        : arguments_.counts_as_paper ? paper_text(building, line)
         : arguments_.is_json
             ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
             : segment_listing(building, line);
@@ -184,18 +189,31 @@ class Segmenter final : public VisitingCommand {
   }
 
   void warn_of_budget(const Building& building, const std::string& stage,
-                      const std::string& outcome) const {
-    runner_.warn(used_up(building.id, arguments_.budget, stage, outcome));
+                      const std::string& outcome, std::int64_t budgets = 1) const {
+    runner_.warn(used_up(building.id, budgets * arguments_.budget, stage, outcome));
   }
 
-  /// Of an open building nothing: it has no tree.
-  [[nodiscard]] std::string tree_text(const Building& building, const PipelineResult& line) const {
-    if (line.is_open) {
+  /// Of an open building nothing: it has no tree, and `what` says so.
+  [[nodiscard]] bool is_open(const Building& building, const PipelineResult& line,
+                             const std::string& what) const {
+    if (line.is_open)
       runner_.set_aside(building_issue(Severity::error, Code::E302, building.id,
-                                       "has no tree: its polygons do not form a closed solid "
-                                       "(--close any, or oriel repair, may make one)"));
-      return {};
-    }
+                                       what + ": its polygons do not form a closed solid "
+                                              "(--close any, or oriel repair, may make one)"));
+    return line.is_open;
+  }
+
+  [[nodiscard]] std::string paper_text(const Building& building, const PipelineResult& line) const {
+    if (is_open(building, line, "has no planes to count")) return {};
+    const PaperCount count = count_as_paper(building, line, arguments_.label_options());
+    if (std::ranges::any_of(count.counted, [](const auto& row) { return row.count.is_used_up; }))
+      warn_of_budget(building, "counting as the paper does",
+                     "some counts are of what was done until then", kCountingBudgets);
+    return arguments_.is_json ? paper_json(building.id, count) : paper_table(building.id, count);
+  }
+
+  [[nodiscard]] std::string tree_text(const Building& building, const PipelineResult& line) const {
+    if (is_open(building, line, "has no tree")) return {};
     const TreeComparison trees = compare_trees(line, arguments_.budget);
     if (trees.is_used_up)
       warn_of_budget(building, "proving the tree", "only some of the points were compared");
@@ -216,7 +234,8 @@ ExitCode work(SegmentArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
   arguments.seeks_features = true;
-  arguments.gives_only_features = !arguments.is_json && !arguments.has_tree;
+  arguments.gives_only_features =
+      !arguments.is_json && !arguments.has_tree && !arguments.counts_as_paper;
   BatchRunner runner(arguments, nullptr, report);
   Segmenter command(arguments, runner);
   const ExitCode code = runner.run(command);
@@ -234,14 +253,21 @@ void add_segment(CLI::App& app, Action& action) {
   CLI::Option* json =
       command->add_flag("--json", arguments->is_json,
                         "Write one JSON object per line and building instead of a table");
-  command
-      ->add_flag("--faces", arguments->has_faces,
-                 "With --json: also the faces between cells, and which cells touch")
-      ->needs(json);
-  command->add_flag(
+  CLI::Option* faces =
+      command
+          ->add_flag("--faces", arguments->has_faces,
+                     "With --json: also the faces between cells, and which cells touch")
+          ->needs(json);
+  CLI::Option* tree = command->add_flag(
       "--tree", arguments->has_tree,
       "Instead of the parts: the CSG tree as cut, balanced, and with touching parts merged; its "
       "depth and weighted path; the proof that it is still the same body");
+  command
+      ->add_flag("--count-as-paper", arguments->counts_as_paper,
+                 "Instead of the parts: how many planes, and sets of planes, the paper's algorithm "
+                 "tests, with and without each of its heuristics, beside oriel")
+      ->excludes(tree)
+      ->excludes(faces);
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   add_features_argument(*command, arguments->features);
   add_safe_cells_argument(*command, arguments->has_safe_cells);

@@ -9,7 +9,8 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <span>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 namespace oriel::literal {
@@ -184,29 +185,40 @@ class Arranger {
     return entry->second;
   }
 
+  /// A mean of the corners with weights that have no pattern.
+  [[nodiscard]] Vec3 point_inside(const Piece& piece) const {
+    constexpr double kGolden = 0.6180339887498949;
+    Vec3 sum;
+    double weights = 0, turn = 0;
+    for (const Side& side : piece.sides)
+      for (const int v : side.loop) {
+        turn += kGolden;
+        turn -= std::floor(turn);
+        sum = sum + (1 + turn) * metres_[at(v)];
+        weights += 1 + turn;
+      }
+    return (1 / weights) * sum;
+  }
+
   void write_regions() {
     for (const Piece& piece : pieces_) {
       Region region;
       region.front = piece.front;
-      int corners = 0;
-      Vec3 sum;
       for (const Side& side : piece.sides) {
         region.is_endless = region.is_endless || side.plane <= kBorder;
-        corners += static_cast<int>(side.loop.size());
-        for (const int v : side.loop) sum = sum + metres_[at(v)];
+        work_.add(std::ssize(side.loop));
       }
-      work_.add(corners);
-      region.middle = (1.0 / corners) * sum;
+      region.inside = point_inside(piece);
       for (const Side& side : piece.sides) {
         const Vec3 area = area_vector(metres_, side.loop);
-        region.volume_m3 += dot(metres_[at(side.loop[0])] - region.middle, area) / 3;
+        region.volume_m3 += dot(metres_[at(side.loop[0])] - region.inside, area) / 3;
       }
       out_.regions.push_back(std::move(region));
     }
   }
 
   void write_partitions() {
-    std::map<Bits, int> region_of;
+    std::unordered_map<Bits, int, Bits::Hash> region_of;
     for (int r = 0; r < std::ssize(pieces_); ++r) region_of.emplace(pieces_[at(r)].front, r);
     for (int r = 0; r < std::ssize(pieces_); ++r)
       for (const Side& side : pieces_[at(r)].sides) {
@@ -219,7 +231,13 @@ class Arranger {
   }
 
   void write_edges() {
-    std::map<std::pair<int, int>, RegionsAtEdge> regions;
+    struct EdgeOfRegion {
+      int v, w, region;
+      bool operator<(const EdgeOfRegion& other) const {
+        return std::tie(v, w, region) < std::tie(other.v, other.w, other.region);
+      }
+    };
+    std::vector<EdgeOfRegion> edges;
     std::set<std::pair<int, int>> border;
     for (int r = 0; r < std::ssize(pieces_); ++r)
       for (const Side& side : pieces_[at(r)].sides)
@@ -227,10 +245,16 @@ class Arranger {
           const int v = side.loop[i], w = side.loop[(i + 1) % side.loop.size()];
           if (side.plane <= kBorder) border.insert(std::minmax(v, w));
           // Each edge of a region is an edge of two of its sides.
-          if (v < w) regions[{v, w}].push_back(r);
+          if (v < w) edges.push_back({v, w, r});
         }
-    for (auto& [edge, around] : regions)
-      if (!border.contains(edge)) out_.edges.push_back(std::move(around));
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size();) {
+      RegionsAtEdge around;
+      const EdgeOfRegion first = edges[i];
+      for (; i < edges.size() && edges[i].v == first.v && edges[i].w == first.w; ++i)
+        around.push_back(edges[i].region);
+      if (!border.contains({first.v, first.w})) out_.edges.push_back(std::move(around));
+    }
   }
 
   const Solid& solid_;

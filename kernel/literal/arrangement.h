@@ -17,8 +17,8 @@ struct Region {
   /// It reaches the border of the arrangement, and counts as without end.
   bool is_endless = false;
   double volume_m3 = 0;
-  /// A point inside.
-  Vec3 middle;
+  /// A point inside, in no regular place: not above an edge of a symmetric body, say.
+  Vec3 inside;
 };
 
 /// What two regions share: a convex piece of a plane, the first region behind it.

@@ -53,6 +53,17 @@ class Bits {
 
   [[nodiscard]] const std::vector<std::uint64_t>& words() const { return words_; }
 
+  struct Hash {
+    std::size_t operator()(const Bits& bits) const {
+      std::uint64_t hash = 0;
+      for (const std::uint64_t w : bits.words_) {
+        hash = (hash ^ w) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32U;
+      }
+      return static_cast<std::size_t>(hash);
+    }
+  };
+
  private:
   static std::size_t word(int i) { return static_cast<std::size_t>(i) / 64; }
   static unsigned bit(int i) { return static_cast<unsigned>(i) % 64; }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 namespace oriel::literal {
@@ -47,7 +47,7 @@ void BodyView::group_regions(const Bits& body) {
   const std::size_t count = arrangement_.regions.size();
   Bits own(arrangement_.planes.size());
   for (const SplitPlane& split : planes_) own.add(split.plane);
-  std::map<Bits, int> group_of;
+  std::unordered_map<Bits, int, Bits::Hash> group_of;
   std::vector<Bits> front;
   for (std::size_t r = 0; r < count; ++r) {
     const Region& region = arrangement_.regions[r];
@@ -55,11 +55,11 @@ void BodyView::group_regions(const Bits& body) {
     key &= own;
     const auto [entry, is_new] = group_of.emplace(key, static_cast<int>(groups_.size()));
     if (is_new) {
-      groups_.push_back({Bits(count), 0, false, body.has(static_cast<int>(r))});
+      groups_.push_back({{}, 0, false, body.has(static_cast<int>(r))});
       front.push_back(key);
     }
     Group& group = groups_[at(entry->second)];
-    group.regions.add(static_cast<int>(r));
+    group.regions.push_back(static_cast<int>(r));
     group.volume_m3 += region.volume_m3;
     group.is_endless = group.is_endless || region.is_endless;
     group_of_region_.push_back(entry->second);
@@ -77,36 +77,45 @@ void BodyView::group_regions(const Bits& body) {
       if (front[at(g)].has(split.plane) != split.is_along) behind.add(g);
   }
 
-  std::map<std::pair<int, int>, Link> links;
+  link_groups(own);
+  is_marked_.assign(groups_.size(), 0);
+  lump_of_group_.assign(groups_.size(), -1);
+}
+
+/// Two groups share one plane, and there perhaps several partitions.
+void BodyView::link_groups(const Bits& own) {
+  links_.resize(groups_.size());
+  const auto add = [&](int from, int to, const Partition& p) {
+    std::vector<Link>& links = links_[at(from)];
+    const auto known = std::ranges::find(links, to, &Link::to);
+    if (known != links.end())
+      known->area_m2 += p.area_m2;
+    else
+      links.push_back({to, p.plane, p.area_m2});
+  };
   for (const Partition& p : arrangement_.partitions) {
     if (!own.has(p.plane)) continue;
     const int a = group_of_region_[at(p.behind)], b = group_of_region_[at(p.before)];
-    Link& link = links.emplace(std::pair(a, b), Link{b, p.plane, 0}).first->second;
-    link.area_m2 += p.area_m2;
+    add(a, b, p);
+    add(b, a, p);
   }
-  links_.resize(groups_.size());
-  for (const auto& [ends, link] : links) {
-    links_[at(ends.first)].push_back(link);
-    links_[at(ends.second)].push_back({ends.first, link.plane, link.area_m2});
-  }
-  is_marked_.assign(groups_.size(), 0);
-  lump_of_group_.assign(groups_.size(), -1);
 }
 
 /// Around an edge that m planes meet in there are 2m sectors. More than m of them in the body: its
 /// angle there is larger than 180°.
 void BodyView::find_reflex_edges(const Bits& body) {
-  std::set<std::vector<int>> found;
   for (const RegionsAtEdge& around : arrangement_.edges) {
     work_.add(std::ssize(around));
     const auto solid = std::ranges::count_if(around, [&](int r) { return body.has(r); });
     if (2 * solid <= std::ssize(around) || solid == std::ssize(around)) continue;
-    std::set<int> air;
+    std::vector<int>& air = reflex_edges_.emplace_back();
     for (const int r : around)
-      if (!body.has(r)) air.insert(group_of_region_[at(r)]);
-    found.emplace(air.begin(), air.end());
+      if (!body.has(r)) air.push_back(group_of_region_[at(r)]);
+    std::ranges::sort(air);
+    air.erase(std::unique(air.begin(), air.end()), air.end());
   }
-  reflex_edges_.assign(found.begin(), found.end());
+  std::ranges::sort(reflex_edges_);
+  reflex_edges_.erase(std::unique(reflex_edges_.begin(), reflex_edges_.end()), reflex_edges_.end());
 }
 
 void BodyView::mark(const Bits& groups) {
@@ -144,12 +153,7 @@ std::vector<Lump> BodyView::holes(std::span<const int> splits) {
   Bits space = air_;
   for (const int split : splits) space &= behind_[at(split)];
   mark(space);
-  // What is joined to the endless is no hole.
-  Bits endless = space;
-  endless &= endless_;
-  endless.for_each([&](int g) {
-    if (is_marked_[at(g)] != 0) take_piece(g);
-  });
+  take_endless(space);
   std::vector<Lump> lumps;
   space.for_each([&](int g) {
     if (is_marked_[at(g)] != 0) lumps.push_back(lump_of(take_piece(g), splits, true));
@@ -157,31 +161,38 @@ std::vector<Lump> BodyView::holes(std::span<const int> splits) {
   return lumps;
 }
 
-std::vector<Bits> BodyView::cavities() {
-  mark(air_);
-  Bits endless = air_;
-  endless &= endless_;
-  endless.for_each([&](int g) {
+void BodyView::take_endless(Bits space) {
+  space &= endless_;
+  space.for_each([&](int g) {
     if (is_marked_[at(g)] != 0) take_piece(g);
   });
-  std::vector<Bits> found;
+}
+
+std::vector<Lump> BodyView::cavities() {
+  mark(air_);
+  take_endless(air_);
+  std::vector<Lump> found;
   air_.for_each([&](int g) {
-    if (is_marked_[at(g)] == 0) return;
-    Bits& cavity = found.emplace_back(arrangement_.regions.size());
-    for (const int member : take_piece(g)) cavity |= groups_[at(member)].regions;
+    if (is_marked_[at(g)] != 0) found.push_back(lump_of(take_piece(g), {}, true));
   });
   return found;
+}
+
+Bits BodyView::regions_of(const Lump& lump) const {
+  Bits regions(arrangement_.regions.size());
+  for (const int g : lump.groups)
+    for (const int r : groups_[at(g)].regions) regions.add(r);
+  return regions;
 }
 
 /// New area is where a lump of air meets air in front of a split plane, or a lump of the body meets
 /// the body behind it.
 Lump BodyView::lump_of(const std::vector<int>& piece, std::span<const int> splits, bool is_hole) {
   Lump lump;
-  lump.regions = Bits(arrangement_.regions.size());
+  lump.groups = piece;
   lump.new_area_m2.resize(splits.size());
   const int mine = lumps_++;
   for (const int g : piece) {
-    lump.regions |= groups_[at(g)].regions;
     lump.volume_m3 += groups_[at(g)].volume_m3;
     lump_of_group_[at(g)] = mine;
   }

@@ -25,8 +25,8 @@ struct SplitPlane {
 
 /// A connected piece that split planes take from a body, or add to it.
 struct Lump {
-  /// Regions of the arrangement.
-  Bits regions;
+  /// What it is made of: see BodyView::regions_of.
+  std::vector<int> groups;
   double volume_m3 = 0;
   /// By split plane of the test: the new area in it.
   std::vector<double> new_area_m2;
@@ -51,12 +51,14 @@ class BodyView {
   /// (paper, figures 2 and 3).
   std::vector<Lump> holes(std::span<const int> splits);
   /// The finite pieces of air that no split plane is needed for.
-  std::vector<Bits> cavities();
+  std::vector<Lump> cavities();
+  /// The regions of the arrangement that a lump takes up.
+  [[nodiscard]] Bits regions_of(const Lump& lump) const;
 
  private:
   /// What the body's own planes do not tell apart.
   struct Group {
-    Bits regions;
+    std::vector<int> regions;
     double volume_m3 = 0;
     bool is_endless = false;
     bool is_solid = false;
@@ -69,7 +71,10 @@ class BodyView {
 
   void find_planes(const Bits& body);
   void group_regions(const Bits& body);
+  void link_groups(const Bits& own);
   void find_reflex_edges(const Bits& body);
+  /// Takes away what is joined to the endless, of the marked groups.
+  void take_endless(Bits space);
   /// The groups that can be reached from `start` within the marked ones, which lose their marks.
   const std::vector<int>& take_piece(int start);
   void mark(const Bits& groups);

@@ -27,6 +27,12 @@ struct Candidate {
   int planes = 0;
   double value = 0;
   double volume_m3 = 0;
+  std::vector<Lump> lumps;
+};
+
+/// The best of a recursion, with the regions of its lumps.
+struct Cut {
+  Candidate candidate;
   std::vector<Bits> lumps;
 };
 
@@ -37,27 +43,52 @@ struct WaitingBody {
   int parent = -1;
 };
 
-/// The regions of the arrangement that lie in a solid.
-Bits regions_in(const Solid& solid, const Arrangement& arrangement, Work& work) {
-  std::vector<std::vector<detail::Outline>> facets;
+/// A facet as it is seen from above.
+struct FacetAbove {
+  Plane plane;
+  Box box;
+  std::vector<detail::Outline> outlines;
   std::int64_t corners = 0;
+};
+
+/// Those that are not upright.
+std::vector<FacetAbove> facets_above(const Solid& solid) {
+  std::vector<FacetAbove> facets;
   for (const Facet& facet : solid.facets) {
-    std::vector<detail::Outline>& outlines = facets.emplace_back();
+    const Plane& plane = solid.planes[facet.plane.index()];
+    if (plane.coefficients[2] == 0) continue;
+    FacetAbove& above = facets.emplace_back();
+    above.plane = plane;
     for (const Loop& loop : facet.loops) {
-      detail::Outline& outline = outlines.emplace_back();
-      for (const int v : loop) outline.push_back(solid.vertices[at(v)].point);
-      corners += std::ssize(loop);
+      detail::Outline& outline = above.outlines.emplace_back();
+      for (const int v : loop) {
+        outline.push_back(solid.vertices[at(v)].point);
+        above.box.grow(outline.back());
+      }
+      above.corners += std::ssize(loop);
     }
   }
+  return facets;
+}
+
+/// The regions of the arrangement that lie in a solid: those over whose inner point there is an odd
+/// number of facets.
+Bits regions_in(const Solid& solid, const Arrangement& arrangement, Work& work) {
+  const std::vector<FacetAbove> facets = facets_above(solid);
   Bits inside(arrangement.regions.size());
   for (int r = 0; r < std::ssize(arrangement.regions) && !work.is_used_up(); ++r) {
-    const Region& region = arrangement.regions[at(r)];
-    if (region.is_endless) continue;
-    work.add(corners);
-    double winding = 0;
-    for (const auto& outlines : facets) winding += detail::winding_part(outlines, region.middle);
-    constexpr double kHalf = 0.5;
-    if (winding > kHalf) inside.add(r);
+    const Vec3 p = arrangement.regions[at(r)].inside;
+    if (arrangement.regions[at(r)].is_endless) continue;
+    bool is_inside = false;
+    for (const FacetAbove& facet : facets) {
+      const Box& box = facet.box;
+      if (p.x < box.min.x || p.x > box.max.x || p.y < box.min.y || p.y > box.max.y) continue;
+      work.add(facet.corners);
+      if (p.z > box.max.z || !detail::contains(facet.outlines, {0, 0, 1}, p)) continue;
+      const Vec3 n = facet.plane.normal;
+      if ((facet.plane.offset_m - n.x * p.x - n.y * p.y) / n.z > p.z) is_inside = !is_inside;
+    }
+    if (is_inside) inside.add(r);
   }
   return inside;
 }
@@ -172,7 +203,7 @@ class Recursion {
     for (const auto& [value, lump] : valid) {
       if (value > candidate.value * (1 + value_rel_) + kEqual) break;
       candidate.volume_m3 += lump->volume_m3;
-      candidate.lumps.push_back(std::move(lump->regions));
+      candidate.lumps.push_back(std::move(*lump));
       if (!heuristics_.equal_features_together) break;
     }
     return candidate;
@@ -202,20 +233,23 @@ class Recursion {
 /// The whole segmentation.
 class Literal {
  public:
-  Literal(const Heuristics& heuristics, double value_rel, std::int64_t budget)
-      : heuristics_(heuristics), value_rel_(value_rel), work_(budget) {}
+  Literal(const Arrangement& arrangement, const Pieces& pieces, const Heuristics& heuristics,
+          double value_rel, std::int64_t budget)
+      : arrangement_(arrangement),
+        pieces_(pieces),
+        heuristics_(heuristics),
+        value_rel_(value_rel),
+        work_(budget) {}
 
-  LiteralCount run(const Solid& solid) {
-    arrangement_ = arrange(solid, work_);
-    if (arrangement_) segment(regions_in(solid, *arrangement_, work_));
+  LiteralCount run(const Bits& solid) {
+    segment(solid);
     out_.is_used_up = work_.is_used_up();
     return std::move(out_);
   }
 
  private:
   void segment(const Bits& solid) {
-    const Pieces pieces(*arrangement_);
-    add_lumps(pieces.of(solid));
+    add_lumps(pieces_.of(solid));
     while (!waiting_.empty() && !work_.is_used_up()) {
       WaitingBody body = std::move(waiting_.back());
       waiting_.pop_back();
@@ -229,19 +263,19 @@ class Literal {
         continue;
       }
       ++out_.inner;
-      step.cut = cut->planes;
-      step.is_hole = cut->is_hole;
-      step.value = cut->value;
+      step.cut = cut->candidate.planes;
+      step.is_hole = cut->candidate.is_hole;
+      step.value = cut->candidate.value;
       step.parts = static_cast<int>(cut->lumps.size());
       add(cut->lumps, place);
       Bits rest = std::move(body.regions);
       for (const Bits& lump : cut->lumps) {
-        if (cut->is_hole)
+        if (step.is_hole)
           rest |= lump;
         else
           rest -= lump;
       }
-      add(pieces.of(std::move(rest)), place);
+      add(pieces_.of(std::move(rest)), place);
     }
   }
 
@@ -257,11 +291,17 @@ class Literal {
     add(std::move(lumps), -1);
   }
 
-  std::optional<Candidate> cut_of(const Bits& body, LiteralStep& step) {
-    BodyView view(*arrangement_, body, work_);
-    std::vector<Bits> cavities = view.cavities();
-    if (!cavities.empty()) return Candidate{true, 0, 0, 0, std::move(cavities)};
-    return Recursion(view, heuristics_, value_rel_, work_).run(step);
+  std::optional<Cut> cut_of(const Bits& body, LiteralStep& step) {
+    BodyView view(arrangement_, body, work_);
+    std::optional<Candidate> best;
+    if (std::vector<Lump> cavities = view.cavities(); !cavities.empty())
+      best = Candidate{true, 0, 0, 0, std::move(cavities)};
+    else
+      best = Recursion(view, heuristics_, value_rel_, work_).run(step);
+    if (!best) return {};
+    Cut cut{std::move(*best), {}};
+    for (const Lump& lump : cut.candidate.lumps) cut.lumps.push_back(view.regions_of(lump));
+    return cut;
   }
 
   /// The last of them is the next to be segmented.
@@ -276,10 +316,11 @@ class Literal {
     return false;
   }
 
+  const Arrangement& arrangement_;
+  const Pieces& pieces_;
   const Heuristics& heuristics_;
   double value_rel_;
   Work work_;
-  std::optional<Arrangement> arrangement_;
   std::vector<WaitingBody> waiting_, bodies_;
   LiteralCount out_;
 };
@@ -304,9 +345,26 @@ LiteralStep LiteralCount::sum() const {
   return sum;
 }
 
+std::vector<LiteralCount> count_literally(const Solid& solid,
+                                          std::span<const Heuristics> heuristics,
+                                          const Tolerances& tolerances, std::int64_t budget) {
+  std::vector<LiteralCount> counts(heuristics.size());
+  for (LiteralCount& count : counts) count.is_used_up = true;
+  Work work(budget);
+  const auto arrangement = literal::arrange(solid, work);
+  if (!arrangement) return counts;
+  const literal::Bits body = literal::regions_in(solid, *arrangement, work);
+  if (work.is_used_up()) return counts;
+  const literal::Pieces pieces(*arrangement);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    counts[i] = literal::Literal(*arrangement, pieces, heuristics[i], tolerances.value_rel, budget)
+                    .run(body);
+  return counts;
+}
+
 LiteralCount count_literally(const Solid& solid, const Heuristics& heuristics,
                              const Tolerances& tolerances, std::int64_t budget) {
-  return literal::Literal(heuristics, tolerances.value_rel, budget).run(solid);
+  return std::move(count_literally(solid, std::span(&heuristics, 1), tolerances, budget)[0]);
 }
 
 }  // namespace oriel

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <span>
 #include <vector>
 
 namespace oriel {
@@ -78,6 +78,13 @@ struct LiteralCount {
 /// separated first, then cavities, without a test; a body that came before on its path is a leaf.
 ///
 /// `budget`: a step is a combination, or a look at a region of space in it. Same everywhere.
+///
+/// One count for each of `heuristics`, each with that budget, and as much for what they share; if
+/// that is used up, all of them are empty.
+std::vector<LiteralCount> count_literally(const Solid& solid,
+                                          std::span<const Heuristics> heuristics,
+                                          const Tolerances& tolerances = {},
+                                          std::int64_t budget = kWorkBudget);
 LiteralCount count_literally(const Solid& solid, const Heuristics& heuristics,
                              const Tolerances& tolerances = {}, std::int64_t budget = kWorkBudget);
 

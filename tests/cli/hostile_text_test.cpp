@@ -71,6 +71,7 @@ TEST_SUITE("cli") {
          std::vector<Names>{{"label", input, "-v"},
                             {"segment", input},
                             {"segment", input, "--tree"},
+                            {"segment", input, "--count-as-paper"},
                             {"validate", input},
                             {"explain", input, "--surface", "0"},
                             {"label", input, "--log-level", "debug"},

@@ -60,7 +60,7 @@ TEST_SUITE("kernel/literal") {
         CHECK(signs.insert(region.front.words()).second);
         for (int p = 0; p < std::ssize(a.planes); ++p) {
           const Plane& plane = a.planes[static_cast<std::size_t>(p)];
-          CHECK((dot(plane.normal, region.middle) > plane.offset_m) == region.front.has(p));
+          CHECK((dot(plane.normal, region.inside) > plane.offset_m) == region.front.has(p));
         }
       }
       for (const literal::Partition& partition : a.partitions) {

@@ -105,7 +105,7 @@ TEST_SUITE("kernel/literal") {
     CHECK(with.steps[0].tested == Four{34, 0, 0, 0});
     CHECK(with.steps[0].value == Approx(3.0 / 997).epsilon(1e-5));
     // The budget ends after the first recursion.
-    const LiteralCount without = count_literally(figure_5(), kNone, {}, 60'000'000);
+    const LiteralCount without = count_literally(figure_5(), kNone, {}, 30'000'000);
     REQUIRE(without.steps.size() > 1);
     CHECK(without.steps[0].tested == Four{34, 561, 5984, 46376});
     for (const LiteralStep& step : with.steps)

@@ -1,0 +1,49 @@
+#include "oriel/count.h"
+
+#include "kernel/segment/segment.h"
+
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+/// The rows of the table, the paper's own first.
+std::vector<CountedHeuristics> heuristics_to_count() {
+  std::vector<CountedHeuristics> rows{{"paper", {}, {}}};
+  rows.push_back({"without fewest planes first", {}, {}});
+  rows.back().heuristics.fewest_planes_first = false;
+  rows.push_back({"without values below one", {}, {}});
+  rows.back().heuristics.values_below_one = false;
+  rows.push_back({"without different normals", {}, {}});
+  rows.back().heuristics.different_normals = false;
+  rows.push_back({"without equal features together", {}, {}});
+  rows.back().heuristics.equal_features_together = false;
+  rows.push_back({"brute force", {false, false, false, false, false}, {}});
+  rows.push_back({"paper, convex bodies untested", {}, {}});
+  rows.back().heuristics.convex_bodies_untested = true;
+  return rows;
+}
+
+}  // namespace
+
+PaperCount count_as_paper(const Building& building, const PipelineResult& result,
+                          const PipelineOptions& options) {
+  PaperCount out;
+  out.counted = heuristics_to_count();
+  std::vector<Heuristics> heuristics;
+  for (const CountedHeuristics& row : out.counted) heuristics.push_back(row.heuristics);
+  std::vector<LiteralCount> counts = count_literally(*result.solid, heuristics, result.tolerances,
+                                                     kCountingBudgets * options.budget);
+  for (std::size_t i = 0; i < counts.size(); ++i) out.counted[i].count = std::move(counts[i]);
+  for (const Order order : {Order::paper, Order::natural}) {
+    PipelineOptions in_order = options;
+    in_order.order = order;
+    out.orders.push_back(
+        {order,
+         segment(building, *result.solid, segment_options(in_order, result.tolerances)).stats});
+  }
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "kernel/literal/literal.h"  // IWYU pragma: export
+#include "kernel/model/building.h"
+#include "oriel/options.h"
+#include "oriel/result.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// What the paper's algorithm does to a building with some of its heuristics.
+struct CountedHeuristics {
+  /// "paper" (all of the paper's), "paper, convex bodies untested", "without …", "brute force"
+  /// (none).
+  std::string name;
+  Heuristics heuristics;
+  LiteralCount count;
+};
+
+/// What segment() does to it.
+struct CountedOrder {
+  Order order = Order::natural;
+  SegmentationStats stats;
+};
+
+/// How many planes, and sets of planes, are tested: the paper's figures (section 4) for any
+/// building, beside oriel's.
+struct PaperCount {
+  std::vector<CountedHeuristics> counted;
+  /// In the paper's order and in the natural one.
+  std::vector<CountedOrder> orders;
+};
+
+/// Each count may take so many times the steps of a stage: they are small, and what the paper calls
+/// brute force takes many.
+inline constexpr std::int64_t kCountingBudgets = 2;
+
+/// Counts what the paper's algorithm does to a building: with its heuristics, with each of them
+/// left out, and with none. `result` is what segment() or label() said of it, is_done() and not
+/// open. Each count ends after kCountingBudgets × `options.budget` steps; its is_used_up says so.
+PaperCount count_as_paper(const Building& building, const PipelineResult& result,
+                          const PipelineOptions& options = {});
+
+}  // namespace oriel
