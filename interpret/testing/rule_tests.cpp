@@ -201,7 +201,7 @@ class TestRun {
 
   /// Every copy with noise must have the labels of the original.
   void check_property(const std::vector<DescribedBuilding>& buildings) {
-    const rules::Perturbation& p = *test_.perturbation;
+    const rules::TablePerturbation& p = *test_.perturbation;
     rules::Noise noise;
     for (int round = 1; round <= p.times; ++round)
       for (std::size_t b = 0; b < buildings.size(); ++b) {

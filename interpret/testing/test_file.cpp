@@ -175,7 +175,7 @@ class TestReader {
 
   void read_property(const YamlNode& node, RuleTest& test) {
     YamlSection section(node, "a property", {"perturb", "times"}, findings());
-    Perturbation perturbation;
+    TablePerturbation perturbation;
     const YamlNode* perturb = section.require("perturb");
     if (perturb != nullptr && expect_map(*perturb, "'perturb'", findings()))
       for (const YamlEntry& entry : perturb->entries) read_amount(entry, perturbation);
@@ -186,7 +186,7 @@ class TestReader {
     test.perturbation = std::move(perturbation);
   }
 
-  void read_amount(const YamlEntry& entry, Perturbation& perturbation) {
+  void read_amount(const YamlEntry& entry, TablePerturbation& perturbation) {
     const auto attribute = find_attribute(entry.key.text);
     const bool is_number = attribute && info_of(*attribute).unit != Unit::text &&
                            info_of(*attribute).unit != Unit::yes_no;
@@ -234,11 +234,12 @@ double Noise::next() {
   return static_cast<double>(z >> 11U) * 0x1p-52 - 1;
 }
 
-FeatureTable perturbed(const FeatureTable& table, const Perturbation& perturbation, Noise& noise) {
+FeatureTable perturbed(const FeatureTable& table, const TablePerturbation& perturbation,
+                       Noise& noise) {
   FeatureTable moved = table;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const FeatureId id{static_cast<int>(row)};
-    for (const Perturbation::Amount& amount : perturbation.amounts) {
+    for (const TablePerturbation::Amount& amount : perturbation.amounts) {
       const auto value = table.number(id, amount.attribute);
       if (!value) continue;
       const double most = amount.is_relative ? std::abs(*value) * amount.amount : amount.amount;

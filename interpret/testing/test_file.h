@@ -29,7 +29,7 @@ struct Reason {
 };
 
 /// `property: {perturb: {base_height: 2 mm, a: 1 %}, times: 20}`.
-struct Perturbation {
+struct TablePerturbation {
   struct Amount {
     Attribute attribute{};
     double amount = 0;
@@ -50,7 +50,8 @@ class Noise {
 };
 
 /// The table with each value moved by no more than its amount.
-FeatureTable perturbed(const FeatureTable& table, const Perturbation& perturbation, Noise& noise);
+FeatureTable perturbed(const FeatureTable& table, const TablePerturbation& perturbation,
+                       Noise& noise);
 
 struct RuleTest {
   std::string name;
@@ -62,7 +63,7 @@ struct RuleTest {
   std::vector<std::pair<std::string, std::size_t>> counts;
   std::vector<std::pair<std::string, std::size_t>> groups;
   std::vector<Reason> because;
-  std::optional<Perturbation> perturbation;
+  std::optional<TablePerturbation> perturbation;
 };
 
 struct TestFile {

@@ -28,7 +28,7 @@ struct Side {
   std::vector<int> loop;
 };
 
-struct Piece {
+struct SpacePiece {
   Bits front;
   std::vector<Side> sides;
 };
@@ -37,7 +37,7 @@ class Arranger {
  public:
   Arranger(const Solid& solid, Work& work) : solid_(solid), grid_m_(solid.grid_m), work_(work) {}
 
-  std::optional<Arrangement> run() {
+  std::optional<PlaneArrangement> run() {
     collect_planes();
     start_with_box();
     for (int p = 0; p < std::ssize(out_.planes); ++p)
@@ -91,7 +91,7 @@ class Arranger {
       point.z = (corner & 4) != 0 ? high[2] : low[2];
       add_point(point);
     }
-    Piece& piece = pieces_.emplace_back();
+    SpacePiece& piece = pieces_.emplace_back();
     piece.front = Bits(out_.planes.size());
     const std::array<std::vector<int>, 6> loops{
         {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
@@ -118,7 +118,7 @@ class Arranger {
       const int where = where_is(pieces_[i]);
       if (where > 0) pieces_[i].front.add(plane);
       if (where != 0) continue;
-      Piece front = part_of(pieces_[i], plane, 1);
+      SpacePiece front = part_of(pieces_[i], plane, 1);
       front.front.add(plane);
       pieces_[i] = part_of(pieces_[i], plane, -1);
       pieces_.push_back(std::move(front));
@@ -127,7 +127,7 @@ class Arranger {
   }
 
   /// +1: in front of the plane that is inserted, -1: behind it, 0: the plane cuts it.
-  int where_is(const Piece& piece) {
+  int where_is(const SpacePiece& piece) {
     bool is_in_front = false, is_behind = false;
     for (const Side& side : piece.sides) {
       work_.add(static_cast<std::int64_t>(side.loop.size()));
@@ -141,8 +141,8 @@ class Arranger {
   }
 
   /// The part of a piece on one side (+1, -1) of a plane that cuts it.
-  Piece part_of(const Piece& piece, int plane, int sign) {
-    Piece part;
+  SpacePiece part_of(const SpacePiece& piece, int plane, int sign) {
+    SpacePiece part;
     part.front = piece.front;
     std::map<int, int> next;  // along the cut, round the new side
     for (const Side& side : piece.sides) {
@@ -169,7 +169,7 @@ class Arranger {
   }
 
   /// The point where the edge of a side of the piece crosses the plane that is inserted.
-  int crossing(const Piece& piece, int side_plane, int v, int w, int plane) {
+  int crossing(const SpacePiece& piece, int side_plane, int v, int w, int plane) {
     const auto [entry, is_new] = crossing_.emplace(std::minmax(v, w), -1);
     if (!is_new) return entry->second;
     const Side* other = nullptr;
@@ -186,7 +186,7 @@ class Arranger {
   }
 
   /// A mean of the corners with weights that have no pattern.
-  [[nodiscard]] Vec3 point_inside(const Piece& piece) const {
+  [[nodiscard]] Vec3 point_inside(const SpacePiece& piece) const {
     constexpr double kGolden = 0.6180339887498949;
     Vec3 sum;
     double weights = 0, turn = 0;
@@ -201,8 +201,8 @@ class Arranger {
   }
 
   void write_regions() {
-    for (const Piece& piece : pieces_) {
-      Region region;
+    for (const SpacePiece& piece : pieces_) {
+      SpaceRegion region;
       region.front = piece.front;
       for (const Side& side : piece.sides) {
         region.is_endless = region.is_endless || side.plane <= kBorder;
@@ -260,9 +260,9 @@ class Arranger {
   const Solid& solid_;
   double grid_m_;
   Work& work_;
-  Arrangement out_;
+  PlaneArrangement out_;
   std::vector<Plane> border_;
-  std::vector<Piece> pieces_;
+  std::vector<SpacePiece> pieces_;
   std::vector<exact::Rational> points_;
   std::vector<Vec3> metres_;
   /// By point: its side of the plane that is inserted.
@@ -273,7 +273,7 @@ class Arranger {
 
 }  // namespace
 
-std::optional<Arrangement> arrange(const Solid& solid, Work& work) {
+std::optional<PlaneArrangement> arrange(const Solid& solid, Work& work) {
   return Arranger(solid, work).run();
 }
 

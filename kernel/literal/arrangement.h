@@ -11,7 +11,7 @@
 namespace oriel::literal {
 
 /// A convex piece of space that no plane of the arrangement cuts.
-struct Region {
+struct SpaceRegion {
   /// By plane of the arrangement: it lies in front.
   Bits front;
   /// It reaches the border of the arrangement, and counts as without end.
@@ -38,10 +38,10 @@ using RegionsAtEdge = std::vector<int>;
 ///
 /// Exact: vertices are rational points, and on which side of a plane one lies is decided by
 /// integers. Only areas and volumes are doubles.
-struct Arrangement {
+struct PlaneArrangement {
   /// Each geometric plane once, in the orientation that it first has in Solid::planes.
   std::vector<Plane> planes;
-  std::vector<Region> regions;
+  std::vector<SpaceRegion> regions;
   std::vector<Partition> partitions;
   /// Of edges within the box.
   std::vector<RegionsAtEdge> edges;
@@ -49,6 +49,6 @@ struct Arrangement {
 
 /// The arrangement of the planes that the solid's facets lie in. Nothing if `work` is used up: a
 /// step is a look at a corner of a region.
-std::optional<Arrangement> arrange(const Solid& solid, Work& work);
+std::optional<PlaneArrangement> arrange(const Solid& solid, Work& work);
 
 }  // namespace oriel::literal

@@ -11,7 +11,7 @@
 
 namespace oriel::literal {
 
-BodyView::BodyView(const Arrangement& arrangement, const Bits& body, Work& work)
+BodyView::BodyView(const PlaneArrangement& arrangement, const Bits& body, Work& work)
     : arrangement_(arrangement), work_(work) {
   find_planes(body);
   group_regions(body);
@@ -50,7 +50,7 @@ void BodyView::group_regions(const Bits& body) {
   std::unordered_map<Bits, int, Bits::Hash> group_of;
   std::vector<Bits> front;
   for (std::size_t r = 0; r < count; ++r) {
-    const Region& region = arrangement_.regions[r];
+    const SpaceRegion& region = arrangement_.regions[r];
     Bits key = region.front;
     key &= own;
     const auto [entry, is_new] = group_of.emplace(key, static_cast<int>(groups_.size()));
@@ -58,7 +58,7 @@ void BodyView::group_regions(const Bits& body) {
       groups_.push_back({{}, 0, false, body.has(static_cast<int>(r))});
       front.push_back(key);
     }
-    Group& group = groups_[at(entry->second)];
+    RegionGroup& group = groups_[at(entry->second)];
     group.regions.push_back(static_cast<int>(r));
     group.volume_m3 += region.volume_m3;
     group.is_endless = group.is_endless || region.is_endless;
@@ -135,26 +135,26 @@ const std::vector<int>& BodyView::take_piece(int start) {
   return piece_;
 }
 
-std::vector<Lump> BodyView::protrusions(int split) {
+std::vector<LiteralLump> BodyView::protrusions(int split) {
   Bits front = solid_;
   front -= behind_[at(split)];
   mark(front);
-  std::vector<Lump> lumps;
+  std::vector<LiteralLump> lumps;
   const std::array<int, 1> splits{split};
   front.for_each([&](int g) {
     if (is_marked_[at(g)] == 0) return;
-    Lump lump = lump_of(take_piece(g), splits, false);
+    LiteralLump lump = lump_of(take_piece(g), splits, false);
     if (lump.new_area_m2[0] > 0) lumps.push_back(std::move(lump));
   });
   return lumps;
 }
 
-std::vector<Lump> BodyView::holes(std::span<const int> splits) {
+std::vector<LiteralLump> BodyView::holes(std::span<const int> splits) {
   Bits space = air_;
   for (const int split : splits) space &= behind_[at(split)];
   mark(space);
   take_endless(space);
-  std::vector<Lump> lumps;
+  std::vector<LiteralLump> lumps;
   space.for_each([&](int g) {
     if (is_marked_[at(g)] != 0) lumps.push_back(lump_of(take_piece(g), splits, true));
   });
@@ -168,17 +168,17 @@ void BodyView::take_endless(Bits space) {
   });
 }
 
-std::vector<Lump> BodyView::cavities() {
+std::vector<LiteralLump> BodyView::cavities() {
   mark(air_);
   take_endless(air_);
-  std::vector<Lump> found;
+  std::vector<LiteralLump> found;
   air_.for_each([&](int g) {
     if (is_marked_[at(g)] != 0) found.push_back(lump_of(take_piece(g), {}, true));
   });
   return found;
 }
 
-Bits BodyView::regions_of(const Lump& lump) const {
+Bits BodyView::regions_of(const LiteralLump& lump) const {
   Bits regions(arrangement_.regions.size());
   for (const int g : lump.groups)
     for (const int r : groups_[at(g)].regions) regions.add(r);
@@ -187,8 +187,9 @@ Bits BodyView::regions_of(const Lump& lump) const {
 
 /// New area is where a lump of air meets air in front of a split plane, or a lump of the body meets
 /// the body behind it.
-Lump BodyView::lump_of(const std::vector<int>& piece, std::span<const int> splits, bool is_hole) {
-  Lump lump;
+LiteralLump BodyView::lump_of(const std::vector<int>& piece, std::span<const int> splits,
+                              bool is_hole) {
+  LiteralLump lump;
   lump.groups = piece;
   lump.new_area_m2.resize(splits.size());
   const int mine = lumps_++;

@@ -24,7 +24,7 @@ struct SplitPlane {
 };
 
 /// A connected piece that split planes take from a body, or add to it.
-struct Lump {
+struct LiteralLump {
   /// What it is made of: see BodyView::regions_of.
   std::vector<int> groups;
   double volume_m3 = 0;
@@ -37,7 +37,7 @@ struct Lump {
 /// A body, a set of regions of an arrangement, prepared to be cut by its own planes.
 class BodyView {
  public:
-  BodyView(const Arrangement& arrangement, const Bits& body, Work& work);
+  BodyView(const PlaneArrangement& arrangement, const Bits& body, Work& work);
 
   /// In descending order of normal, then offset.
   [[nodiscard]] const std::vector<SplitPlane>& planes() const { return planes_; }
@@ -46,18 +46,18 @@ class BodyView {
 
   /// What of the body lies in front of a split plane, in connected pieces that touch what lies
   /// behind it (paper, figure 1).
-  std::vector<Lump> protrusions(int split);
+  std::vector<LiteralLump> protrusions(int split);
   /// The finite connected pieces of what lies behind all of some split planes and not in the body
   /// (paper, figures 2 and 3).
-  std::vector<Lump> holes(std::span<const int> splits);
+  std::vector<LiteralLump> holes(std::span<const int> splits);
   /// The finite pieces of air that no split plane is needed for.
-  std::vector<Lump> cavities();
+  std::vector<LiteralLump> cavities();
   /// The regions of the arrangement that a lump takes up.
-  [[nodiscard]] Bits regions_of(const Lump& lump) const;
+  [[nodiscard]] Bits regions_of(const LiteralLump& lump) const;
 
  private:
   /// What the body's own planes do not tell apart.
-  struct Group {
+  struct RegionGroup {
     std::vector<int> regions;
     double volume_m3 = 0;
     bool is_endless = false;
@@ -78,13 +78,13 @@ class BodyView {
   /// The groups that can be reached from `start` within the marked ones, which lose their marks.
   const std::vector<int>& take_piece(int start);
   void mark(const Bits& groups);
-  Lump lump_of(const std::vector<int>& piece, std::span<const int> splits, bool is_hole);
+  LiteralLump lump_of(const std::vector<int>& piece, std::span<const int> splits, bool is_hole);
   [[nodiscard]] bool has_reflex_edge(const std::vector<int>& piece);
 
-  const Arrangement& arrangement_;
+  const PlaneArrangement& arrangement_;
   Work& work_;
   std::vector<SplitPlane> planes_;
-  std::vector<Group> groups_;
+  std::vector<RegionGroup> groups_;
   std::vector<std::vector<Link>> links_;
   Bits solid_, air_, endless_;
   /// By split plane: the groups behind it.

@@ -22,22 +22,22 @@ constexpr int kMostPlanes = 4;
 constexpr double kEqual = 1e-5;
 
 /// Features of one test that are separated together.
-struct Candidate {
+struct LiteralCandidate {
   bool is_hole = false;
   int planes = 0;
   double value = 0;
   double volume_m3 = 0;
-  std::vector<Lump> lumps;
+  std::vector<LiteralLump> lumps;
 };
 
 /// The best of a recursion, with the regions of its lumps.
-struct Cut {
-  Candidate candidate;
+struct LiteralCut {
+  LiteralCandidate candidate;
   std::vector<Bits> lumps;
 };
 
 /// A body that waits for its recursion.
-struct WaitingBody {
+struct LiteralBody {
   Bits regions;
   /// Its place among the bodies so far, and that of the body it came of.
   int parent = -1;
@@ -73,7 +73,7 @@ std::vector<FacetAbove> facets_above(const Solid& solid) {
 
 /// The regions of the arrangement that lie in a solid: those over whose inner point there is an odd
 /// number of facets.
-Bits regions_in(const Solid& solid, const Arrangement& arrangement, Work& work) {
+Bits regions_in(const Solid& solid, const PlaneArrangement& arrangement, Work& work) {
   const std::vector<FacetAbove> facets = facets_above(solid);
   Bits inside(arrangement.regions.size());
   for (int r = 0; r < std::ssize(arrangement.regions) && !work.is_used_up(); ++r) {
@@ -94,9 +94,10 @@ Bits regions_in(const Solid& solid, const Arrangement& arrangement, Work& work) 
 }
 
 /// The connected pieces of a set of regions.
-class Pieces {
+class ConnectedPieces {
  public:
-  explicit Pieces(const Arrangement& arrangement) : neighbours_(arrangement.regions.size()) {
+  explicit ConnectedPieces(const PlaneArrangement& arrangement)
+      : neighbours_(arrangement.regions.size()) {
     for (const Partition& p : arrangement.partitions) {
       neighbours_[at(p.behind)].push_back(p.before);
       neighbours_[at(p.before)].push_back(p.behind);
@@ -133,7 +134,7 @@ class Recursion {
       : body_(body), heuristics_(heuristics), value_rel_(value_rel), work_(work) {}
 
   /// The best of the valid features; nothing: the body is a leaf.
-  std::optional<Candidate> run(LiteralStep& step) {
+  std::optional<LiteralCandidate> run(LiteralStep& step) {
     step_ = &step;
     step.planes = static_cast<int>(body_.planes().size());
     const bool is_tested = !(heuristics_.convex_bodies_untested && body_.is_convex());
@@ -181,12 +182,12 @@ class Recursion {
   }
   [[nodiscard]] int normal_of(int split) const { return body_.planes()[at(split)].normal_class; }
 
-  void evaluate(std::vector<Lump> lumps, bool is_hole) {
+  void evaluate(std::vector<LiteralLump> lumps, bool is_hole) {
     step_->evaluated += std::ssize(lumps);
     double old_area_m2 = 0;
     for (const int split : chosen_) old_area_m2 += body_.planes()[at(split)].old_area_m2;
-    std::vector<std::pair<double, Lump*>> valid;
-    for (Lump& lump : lumps) {
+    std::vector<std::pair<double, LiteralLump*>> valid;
+    for (LiteralLump& lump : lumps) {
       const bool has_all = std::ranges::all_of(lump.new_area_m2, [](double a) { return a > 0; });
       if (!has_all || (is_hole && !lump.has_reflex_edge)) continue;
       const double value =
@@ -196,10 +197,10 @@ class Recursion {
     if (!valid.empty()) offer(candidate_of(std::move(valid), is_hole));
   }
 
-  Candidate candidate_of(std::vector<std::pair<double, Lump*>> valid, bool is_hole) {
+  LiteralCandidate candidate_of(std::vector<std::pair<double, LiteralLump*>> valid, bool is_hole) {
     // The first of equal ones has the lowest regions.
     std::ranges::stable_sort(valid, {}, [](const auto& v) { return v.first; });
-    Candidate candidate{is_hole, static_cast<int>(chosen_.size()), valid[0].first, 0, {}};
+    LiteralCandidate candidate{is_hole, static_cast<int>(chosen_.size()), valid[0].first, 0, {}};
     for (const auto& [value, lump] : valid) {
       if (value > candidate.value * (1 + value_rel_) + kEqual) break;
       candidate.volume_m3 += lump->volume_m3;
@@ -209,12 +210,12 @@ class Recursion {
     return candidate;
   }
 
-  void offer(Candidate candidate) {
+  void offer(LiteralCandidate candidate) {
     if (!best_ || is_better(candidate, *best_)) best_ = std::move(candidate);
   }
 
   /// Combinations come in the order of their planes, so the first of equals stays.
-  static bool is_better(const Candidate& a, const Candidate& b) {
+  static bool is_better(const LiteralCandidate& a, const LiteralCandidate& b) {
     if (std::abs(a.value - b.value) > kEqual) return a.value < b.value;
     if (a.is_hole != b.is_hole) return a.is_hole;
     return a.volume_m3 > b.volume_m3 * (1 + kEqual);
@@ -227,14 +228,14 @@ class Recursion {
   LiteralStep* step_ = nullptr;
   bool is_tested_ = true;
   std::vector<int> chosen_;
-  std::optional<Candidate> best_;
+  std::optional<LiteralCandidate> best_;
 };
 
 /// The whole segmentation.
 class Literal {
  public:
-  Literal(const Arrangement& arrangement, const Pieces& pieces, const Heuristics& heuristics,
-          double value_rel, std::int64_t budget)
+  Literal(const PlaneArrangement& arrangement, const ConnectedPieces& pieces,
+          const Heuristics& heuristics, double value_rel, std::int64_t budget)
       : arrangement_(arrangement),
         pieces_(pieces),
         heuristics_(heuristics),
@@ -251,7 +252,7 @@ class Literal {
   void segment(const Bits& solid) {
     add_lumps(pieces_.of(solid));
     while (!waiting_.empty() && !work_.is_used_up()) {
-      WaitingBody body = std::move(waiting_.back());
+      LiteralBody body = std::move(waiting_.back());
       waiting_.pop_back();
       const int place = static_cast<int>(bodies_.size());
       const bool is_known = is_on_path(body);
@@ -291,16 +292,16 @@ class Literal {
     add(std::move(lumps), -1);
   }
 
-  std::optional<Cut> cut_of(const Bits& body, LiteralStep& step) {
+  std::optional<LiteralCut> cut_of(const Bits& body, LiteralStep& step) {
     BodyView view(arrangement_, body, work_);
-    std::optional<Candidate> best;
-    if (std::vector<Lump> cavities = view.cavities(); !cavities.empty())
-      best = Candidate{true, 0, 0, 0, std::move(cavities)};
+    std::optional<LiteralCandidate> best;
+    if (std::vector<LiteralLump> cavities = view.cavities(); !cavities.empty())
+      best = LiteralCandidate{true, 0, 0, 0, std::move(cavities)};
     else
       best = Recursion(view, heuristics_, value_rel_, work_).run(step);
     if (!best) return {};
-    Cut cut{std::move(*best), {}};
-    for (const Lump& lump : cut.candidate.lumps) cut.lumps.push_back(view.regions_of(lump));
+    LiteralCut cut{std::move(*best), {}};
+    for (const LiteralLump& lump : cut.candidate.lumps) cut.lumps.push_back(view.regions_of(lump));
     return cut;
   }
 
@@ -310,18 +311,18 @@ class Literal {
     for (Bits& body : bodies) waiting_.push_back({std::move(body), parent});
   }
 
-  [[nodiscard]] bool is_on_path(const WaitingBody& body) const {
+  [[nodiscard]] bool is_on_path(const LiteralBody& body) const {
     for (int i = body.parent; i >= 0; i = bodies_[at(i)].parent)
       if (bodies_[at(i)].regions == body.regions) return true;
     return false;
   }
 
-  const Arrangement& arrangement_;
-  const Pieces& pieces_;
+  const PlaneArrangement& arrangement_;
+  const ConnectedPieces& pieces_;
   const Heuristics& heuristics_;
   double value_rel_;
   Work work_;
-  std::vector<WaitingBody> waiting_, bodies_;
+  std::vector<LiteralBody> waiting_, bodies_;
   LiteralCount out_;
 };
 
@@ -355,7 +356,7 @@ std::vector<LiteralCount> count_literally(const Solid& solid,
   if (!arrangement) return counts;
   const literal::Bits body = literal::regions_in(solid, *arrangement, work);
   if (work.is_used_up()) return counts;
-  const literal::Pieces pieces(*arrangement);
+  const literal::ConnectedPieces pieces(*arrangement);
   for (std::size_t i = 0; i < counts.size(); ++i)
     counts[i] = literal::Literal(*arrangement, pieces, heuristics[i], tolerances.value_rel, budget)
                     .run(body);

@@ -14,30 +14,30 @@ namespace {
 
 using doctest::Approx;
 using literal::arrange;
-using literal::Arrangement;
+using literal::PlaneArrangement;
 
-Arrangement arranged(const Solid& solid) {
+PlaneArrangement arranged(const Solid& solid) {
   Work work;
   auto arrangement = arrange(solid, work);
   REQUIRE(arrangement);
   return std::move(*arrangement);
 }
 
-double volume_of(const Arrangement& arrangement) {
+double volume_of(const PlaneArrangement& arrangement) {
   double sum = 0;
-  for (const literal::Region& region : arrangement.regions) sum += region.volume_m3;
+  for (const literal::SpaceRegion& region : arrangement.regions) sum += region.volume_m3;
   return sum;
 }
 
 TEST_SUITE("kernel/literal") {
   TEST_CASE("the planes of a box make 27 regions and only the box has an end") {
     const Solid solid = test::solid_of(test::BoxBody().add({0, 0, 0}, {3, 2, 1}).build());
-    const Arrangement a = arranged(solid);
+    const PlaneArrangement a = arranged(solid);
     CHECK(a.planes.size() == 6);
     CHECK(a.regions.size() == 27);
     // 2 partitions a plane and axis: between the 3 × 3 columns of each axis.
     CHECK(a.partitions.size() == 54);
-    const auto has_end = [](const literal::Region& r) { return !r.is_endless; };
+    const auto has_end = [](const literal::SpaceRegion& r) { return !r.is_endless; };
     REQUIRE(std::ranges::count_if(a.regions, has_end) == 1);
     CHECK(std::ranges::find_if(a.regions, has_end)->volume_m3 == Approx(6).epsilon(1e-9));
     // A box seven times as long on every side.
@@ -48,14 +48,14 @@ TEST_SUITE("kernel/literal") {
     for (const Building& building :
          {test::full_house(), test::cross_gable(), test::ridge_chimney(), test::three_notches()}) {
       const Solid solid = test::solid_of(building);
-      const Arrangement a = arranged(solid);
+      const PlaneArrangement a = arranged(solid);
       const Box box = box_of(solid);
       const Vec3 size = box.max - box.min;
       const double margin = 6 * std::max({size.x, size.y, size.z});
       CHECK(volume_of(a) ==
             Approx((size.x + margin) * (size.y + margin) * (size.z + margin)).epsilon(1e-6));
       std::set<std::vector<std::uint64_t>> signs;
-      for (const literal::Region& region : a.regions) {
+      for (const literal::SpaceRegion& region : a.regions) {
         CHECK(region.volume_m3 > 0);
         CHECK(signs.insert(region.front.words()).second);
         for (int p = 0; p < std::ssize(a.planes); ++p) {
