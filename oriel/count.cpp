@@ -30,6 +30,7 @@ std::vector<CountedHeuristics> heuristics_to_count() {
 PaperCount count_as_paper(const Building& building, const PipelineResult& result,
                           const PipelineOptions& options) {
   PaperCount out;
+  out.planes = result.solid->planes.size();
   out.counted = heuristics_to_count();
   std::vector<Heuristics> heuristics;
   for (const CountedHeuristics& row : out.counted) heuristics.push_back(row.heuristics);

@@ -5,6 +5,7 @@
 #include "oriel/options.h"
 #include "oriel/result.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct CountedOrder {
 /// How many planes, and sets of planes, are tested: the paper's figures (section 4) for any
 /// building, beside oriel's.
 struct PaperCount {
+  /// Oriented planes of the building's solid.
+  std::size_t planes = 0;
   std::vector<CountedHeuristics> counted;
   /// In the paper's order and in the natural one.
   std::vector<CountedOrder> orders;

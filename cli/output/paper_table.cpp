@@ -4,6 +4,8 @@
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,6 +45,12 @@ std::string saving_of(const CountedHeuristics& row, const CountedHeuristics& pap
   return fmt::format("{}", row.heuristics.convex_bodies_untested ? -difference : difference);
 }
 
+/// The first recursion in which planes were looked at; null: there is none.
+const LiteralStep* first_of(const LiteralCount& count) {
+  const auto found = std::ranges::find_if(count.steps, [](const auto& s) { return s.planes > 0; });
+  return found == count.steps.end() ? nullptr : &*found;
+}
+
 std::string first_recursion(const PaperCount& count) {
   std::vector<std::vector<std::string>> rows{
       {"first recursion, tested", "1 plane", "2 planes", "3 planes", "4 planes", "best"}};
@@ -52,11 +60,11 @@ std::string first_recursion(const PaperCount& count) {
     for (const std::int64_t n : numbers) rows.back().push_back(fmt::format("{}", n));
     rows.back().push_back(cut);
   };
-  const LiteralCount& paper = count.counted[0].count;
-  if (!paper.steps.empty()) add("combinations there are", paper.steps[0].combinations, "");
+  if (const LiteralStep* first = first_of(count.counted[0].count))
+    add("combinations there are", first->combinations, "");
   for (const CountedHeuristics& row : count.counted)
-    if (!row.count.steps.empty())
-      add(name_of(row), row.count.steps[0].tested, cut_of(row.count.steps[0]));
+    if (const LiteralStep* first = first_of(row.count))
+      add(name_of(row), first->tested, cut_of(*first));
   return table(rows);
 }
 
@@ -127,9 +135,7 @@ ordered_json json_of(const CountedOrder& row) {
 }  // namespace
 
 std::string paper_table(const std::string& building, const PaperCount& count) {
-  const std::vector<LiteralStep>& steps = count.counted[0].count.steps;
-  const auto planes = static_cast<std::size_t>(steps.empty() ? 0 : steps[0].planes);
-  return fmt::format("{}: {}\n{}\n{}", printable(building), counted(planes, "plane"),
+  return fmt::format("{}: {}\n{}\n{}", printable(building), counted(count.planes, "plane"),
                      first_recursion(count), all_recursions(count));
 }
 

@@ -31,16 +31,16 @@ FlatCorner flat_corner(Vec3 p, Vec3 normal) {
 }
 
 /// The rings of a polygon by numbers of their own.
-struct PolygonCorners {
+struct SeenPolygon {
   std::vector<int> vertices;  ///< by corner
   std::vector<FlatCorner> corners;
   std::vector<std::vector<int>> rings;
   std::size_t size = 0;  ///< entries of all rings
 };
 
-PolygonCorners flat_polygon(const std::vector<Vec3>& vertices, const Polygon& polygon) {
+SeenPolygon flat_polygon(const std::vector<Vec3>& vertices, const Polygon& polygon) {
   const Vec3 normal = area_vector(vertices, polygon.rings[0]);
-  PolygonCorners out;
+  SeenPolygon out;
   std::map<int, int> corner_of;
   for (const std::vector<int>& ring : polygon.rings) {
     std::vector<int>& numbered = out.rings.emplace_back();
@@ -61,7 +61,7 @@ PolygonCorners flat_polygon(const std::vector<Vec3>& vertices, const Polygon& po
 std::vector<Polygon> triangulated(const std::vector<Vec3>& vertices, const Polygon& polygon,
                                   Random& random) {
   if (polygon.rings.empty()) return {polygon};
-  const PolygonCorners seen = flat_polygon(vertices, polygon);
+  const SeenPolygon seen = flat_polygon(vertices, polygon);
   if (seen.size <= 3) return {polygon};
   const std::vector<std::array<int, 3>> triangles = clip_ears(seen.corners, seen.rings, random);
   // Each hole is joined to the outer ring by a bridge that is walked twice.

@@ -27,15 +27,15 @@ detail::FlatCorner flat(Point p, Vec3 normal) {
 }
 
 /// The rings of a polygon by numbers of their own.
-struct PolygonCorners {
+struct SeenPolygon {
   std::vector<int> vertices;  ///< by corner
   std::vector<detail::FlatCorner> corners;
   std::vector<std::vector<int>> rings;
 };
 
-PolygonCorners flat(const Body& body, const Polygon& polygon) {
+SeenPolygon flat(const Body& body, const Polygon& polygon) {
   const Vec3 normal = doubled_area(body, polygon);
-  PolygonCorners out;
+  SeenPolygon out;
   std::map<int, int> corner_of;
   for (const std::vector<int>& ring : polygon.rings) {
     std::vector<int>& numbered = out.rings.emplace_back();
@@ -56,7 +56,7 @@ Body triangulated(const Body& body, Random& random) {
   Body result = body;
   result.polygons.clear();
   for (const Polygon& polygon : body.polygons) {
-    const PolygonCorners seen = flat(body, polygon);
+    const SeenPolygon seen = flat(body, polygon);
     for (const auto& [a, b, c] : detail::clip_ears(seen.corners, seen.rings, random))
       result.polygons.push_back(
           {polygon.owner, {{seen.vertices[at(a)], seen.vertices[at(b)], seen.vertices[at(c)]}}});
