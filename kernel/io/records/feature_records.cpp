@@ -120,11 +120,16 @@ std::vector<std::optional<detail::RelationClass>> relation_classes(
   return classes;
 }
 
+/// By row, -1: none; nothing if features do not fall into classes by the relation.
+std::optional<std::vector<int>> classes_by(const FeatureLinks& links, std::string_view relation) {
+  if (!may_be_of_classes(relation)) return std::nullopt;
+  return links.are_classes ? std::optional(links.list_of) : classes_of(links);
+}
+
 /// Adds what each feature is related to.
 void add_relation(const FeatureTable& table, const FeatureGraph& graph, const std::string& relation,
                   std::vector<FeatureRecord>& records) {
-  const auto class_of_row =
-      may_be_of_classes(relation) ? classes_of(graph.links(relation)) : std::nullopt;
+  const auto class_of_row = classes_by(graph.links(relation), relation);
   const auto classes = class_of_row ? relation_classes(*class_of_row)
                                     : std::vector<std::optional<detail::RelationClass>>();
   for (std::size_t i = 0; i < records.size(); ++i) {

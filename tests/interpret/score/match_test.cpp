@@ -11,14 +11,14 @@ using namespace oriel;
 namespace {
 
 /// A box of width 1, depth 0.2 and height 1 at x.
-Box matched_pane_at(double x) { return {{x, 0, 1}, {x + 1, 0.2, 2}}; }
+Box pane_on_wall(double x) { return {{x, 0, 1}, {x + 1, 0.2, 2}}; }
 
 ExpectedObject true_pane(const std::string& id, const std::string& label, double x) {
-  return {"house", id, label, "", matched_pane_at(x), true};
+  return {"house", id, label, "", pane_on_wall(x), true};
 }
 
 Prediction found_pane(const std::string& id, const std::string& label, double x) {
-  return {"house", id, label, matched_pane_at(x)};
+  return {"house", id, label, pane_on_wall(x)};
 }
 
 /// Panes of any class along a wall, some of them unlabelled, some without faces.

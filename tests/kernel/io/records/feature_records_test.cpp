@@ -125,7 +125,7 @@ TEST_SUITE("kernel/io") {
     CHECK(root[0]["sense"].is_null());
     CHECK(root[0]["volume_m3"] == 1.0 / 3);
     CHECK(root[1]["natural"] == 1);
-    CHECK(root[1]["rel_alike"] == nlohmann::json::parse(R"(["b1"])"));
+    CHECK(root[1]["rel_alike"] == nlohmann::json::parse(R"(["#1/2"])"));
     CHECK(nlohmann::json::parse(written({}, "f.json")).empty());
   }
 
@@ -150,6 +150,27 @@ TEST_SUITE("kernel/io") {
       CHECK(back.value->at(1).relations == sample(true)[1].relations);
       CHECK(back.value->at(0).rule.empty());
     }
+  }
+
+  TEST_CASE("features that are all related share a class and others have lists") {
+    const test::SmallSegmentation small;
+    FeatureGraph graph;
+    const std::vector<int> classes = {4, 4};
+    graph.set_classes("same_storey", classes);
+    graph.set("alike", {{FeatureId{0}, FeatureId{1}}, {FeatureId{1}, FeatureId{0}}});
+    graph.set("beside", {{FeatureId{0}, FeatureId{1}}, {FeatureId{1}, FeatureId{0}}});
+    const auto records =
+        feature_records(small.building, small.segmentation, small.table, graph, nullptr);
+    const auto related = [&](const std::string& name, std::size_t row) {
+      const std::size_t first = field_index("rel_contains");
+      return records[row].relations[field_index(name) - first];
+    };
+    for (const std::size_t row : {0U, 1U}) {
+      CHECK(related("rel_same_storey", row) == std::vector<std::string>{"#1/2"});
+      CHECK(related("rel_alike", row) == std::vector<std::string>{"#1/2"});
+      CHECK(related("rel_same_facade", row).empty());
+    }
+    CHECK(related("rel_beside", 0) == std::vector<std::string>{"w1"});
   }
 
   TEST_CASE("columns of JSON are those that every record has") {
