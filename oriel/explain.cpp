@@ -5,6 +5,7 @@
 #include "kernel/geometry/planar.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/vec3.h"
+#include "oriel/corrections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,8 @@ std::vector<FeatureId> find_features(const PipelineResult& result, std::string_v
 
 Explanation explain(const PipelineResult& result, const RuleBase& rules, FeatureId feature) {
   const auto& [table, graph, issues] = result.description;
-  Explanation explanation = explain(rules, table, graph, result.interpretation, feature);
+  const Interpretation by_rules = without_corrections(result);
+  Explanation explanation = explain(rules, table, graph, by_rules, feature);
   explanation.name = names_of_features(result).at(feature.index());
   return explanation;
 }
@@ -65,7 +67,8 @@ std::vector<Explanation> explain_features(const PipelineResult& result, const Ru
   std::vector<Explanation> all;
   if (!result.is_done()) return all;
   const auto& [table, graph, issues] = result.description;
-  const Explainer explainer(rules, table, graph, result.interpretation);
+  const Interpretation by_rules = without_corrections(result);
+  const Explainer explainer(rules, table, graph, by_rules);
   std::vector<std::string> names = names_of_features(result);
   for (int i = 0; i < static_cast<int>(table.rows()); ++i) {
     all.push_back(explainer.explain(FeatureId{i}));

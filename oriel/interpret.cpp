@@ -13,6 +13,25 @@ std::vector<Interpretation> interpret(const RuleBase& rules,
   return run;
 }
 
+RecordColumns columns_read(const RuleBase& rules) {
+  std::vector<std::string> names = {"host"};
+  const std::vector<bool> attributes = rules.attributes_read();
+  for (std::size_t column = 0; column < attributes.size(); ++column)
+    if (attributes[column]) names.push_back(record_name(feature_schema()[column]));
+  const std::vector<bool> relations = rules.relations_read();
+  for (std::size_t i = 0; i < relations.size(); ++i)
+    if (relations[i]) names.push_back("rel_" + relation_schema()[i].name);
+  return columns_named(names);
+}
+
+std::vector<std::string> columns_lacking(const RuleBase& rules, const RecordColumns& columns) {
+  std::vector<std::string> lacking;
+  const RecordColumns read = columns_read(rules);
+  for (std::size_t field = 0; field < read.size(); ++field)
+    if (read[field] && !has_column(columns, field)) lacking.push_back(record_fields()[field]);
+  return lacking;
+}
+
 LabelDiff diff_labels(std::span<const DescribedBuilding> buildings,
                       std::span<const Interpretation> before, std::span<const Interpretation> after,
                       std::size_t most_examples) {

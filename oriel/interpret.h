@@ -21,6 +21,11 @@ namespace oriel {
 std::vector<Interpretation> interpret(const RuleBase& rules,
                                       std::span<const DescribedBuilding> buildings);
 
+/// The columns of a table of features that rules read: attributes, relations and the host.
+RecordColumns columns_read(const RuleBase& rules);
+/// The names of those that a table with `columns` lacks: their features count as without a value.
+std::vector<std::string> columns_lacking(const RuleBase& rules, const RecordColumns& columns);
+
 /// What two packs say of the same buildings: `before` and `after` are what interpret() made of
 /// them. So many examples of each change are kept.
 LabelDiff diff_labels(std::span<const DescribedBuilding> buildings,

@@ -32,6 +32,12 @@ std::string configuration(const PipelineOptions& options) {
          (options.ignores_semantics ? " ignore_semantics" : "");
 }
 
+std::string configuration(const LabelOptions& options) {
+  const auto& of_pipeline = static_cast<const PipelineOptions&>(options);
+  return configuration(of_pipeline) +
+         (options.corrections ? " corrections=" + options.corrections->sha256() : "");
+}
+
 PipelineResult label(const Building& building, const RuleBase& rules, const LabelOptions& options) {
   PipelineResult labelled = run_pipeline(building, &rules, options);
   if (!options.has_output || !labelled.has_surfaces()) return labelled;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/labelling/corrections.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/surfaces/untyped.h"  // IWYU pragma: export
 #include "kernel/model/building.h"
@@ -7,6 +8,7 @@
 #include "oriel/options.h"
 #include "oriel/result.h"
 
+#include <memory>
 #include <string>
 
 namespace oriel {
@@ -25,7 +27,13 @@ struct LabelOptions : PipelineOptions {
   /// PipelineResult::output is made. False: it stays empty, and annotate() makes it later if it is
   /// needed; report_untyped() then says which labels have no type there.
   bool has_output = true;
+  /// What people say that features are, against the rules: their verdicts are corrected, other
+  /// features keep theirs. Null: nobody says anything.
+  std::shared_ptr<const Corrections> corrections;
 };
+
+/// All that a result depends on besides input and rules, with the corrections.
+std::string configuration(const LabelOptions& options);
 
 /// Names the features and the surfaces of a building by the rules of a pack (load_pack_file).
 ///

@@ -13,9 +13,20 @@
 #include "kernel/model/tolerances.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace oriel {
+
+/// A label that somebody corrected.
+struct LabelCorrection {
+  /// What the rules said.
+  Verdict before;
+  /// Who corrected it, why, and where that stands.
+  std::string by;
+  std::string why;
+  Place place;
+};
 
 /// All that is known of one building, as far as it came in the pipeline
 /// solidify → segment → describe → interpret.
@@ -34,6 +45,8 @@ struct PipelineResult {
   Description description;
   /// Empty without rules.
   Interpretation interpretation;
+  /// Of the verdicts: those that were corrected, in feature order.
+  std::vector<LabelCorrection> corrections;
   /// With rules, also of a building that was rejected; no rows if describing failed.
   SurfaceTable surfaces;
   /// What the surfaces are, where only their names were asked for; then `surfaces` is not complete.

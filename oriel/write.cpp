@@ -68,8 +68,15 @@ std::string mesh_text(Format format, const MeshSource& mesh, StlSolids solids) {
 std::vector<FeatureRecord> feature_records(const Building& building, const PipelineResult& result) {
   if (!result.is_done()) return {};
   const bool has_labels = !result.interpretation.verdicts.empty();
-  return feature_records(building, *result.segmentation, result.description.table,
-                         result.description.graph, has_labels ? &result.interpretation : nullptr);
+  auto records =
+      feature_records(building, *result.segmentation, result.description.table,
+                      result.description.graph, has_labels ? &result.interpretation : nullptr);
+  for (const LabelCorrection& correction : result.corrections) {
+    FeatureRecord& record = records.at(correction.before.feature.index());
+    record.corrected_by = correction.by;
+    record.corrected_why = correction.why;
+  }
+  return records;
 }
 
 void write(const std::string& path, std::span<const Document> documents,

@@ -8,6 +8,7 @@
 #include "kernel/solidify/open_shell.h"
 #include "kernel/solidify/solidify.h"
 #include "kernel/solidify/supposed_solid.h"
+#include "oriel/corrections.h"
 
 #include <algorithm>
 #include <exception>
@@ -194,6 +195,17 @@ void warn_of_closed_openings(PipelineResult& out) {
           agreeing(count, "an open window or door", "open windows or doors"));
 }
 
+/// Puts in what people say of the building's features.
+void correct_labels(const Building& building, const Corrections& corrections,
+                    const Segmentation& segmentation, PipelineResult& out) {
+  const auto features = placed_features(building, segmentation, out.description.table);
+  const auto corrected = corrections.find(building.id, features, out.issues);
+  for (const auto& [feature, correction] : corrected)
+    out.corrections.push_back({out.interpretation.verdicts.at(feature), correction->by,
+                               correction->why, correction->place});
+  correct(corrected, out.interpretation);
+}
+
 /// Fills what stands between the solid and the surfaces.
 void find_features(const Building& building, const RuleBase* rules, const Tolerances& tolerances,
                    const LabelOptions& options, PipelineResult& out) {
@@ -226,6 +238,7 @@ void find_features(const Building& building, const RuleBase* rules, const Tolera
                              }));
         });
     append(out.issues, out.interpretation.issues);
+    if (options.corrections) correct_labels(building, *options.corrections, segmentation, out);
   }
   out.segmentation = std::move(segmentation);
 }
@@ -282,6 +295,7 @@ PipelineResult run_from_solid(PipelineResult out, const Building& building, cons
       // Features are there with their attributes and labels, or not at all.
       out.description = {};
       out.interpretation = {};
+      out.corrections.clear();
       out.issues.push_back(own_fault(building, fault));
     }
   }

@@ -1,0 +1,41 @@
+#pragma once
+
+/// Corrections that people made (docs/formats.md, corrections.jsonl): read_corrections reads them,
+/// Corrections finds their features, label() follows LabelOptions::corrections, and truth is made
+/// of them here.
+#include "interpret/experiment/sample.h"
+#include "interpret/labelling/corrections.h"
+#include "oriel/result.h"
+#include "oriel/score.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// The features of a segmented building, row by row, as corrections find them.
+std::vector<PlacedFeature> placed_features(const Building& building,
+                                           const Segmentation& segmentation,
+                                           const FeatureTable& table);
+
+/// Adds to the truth of a sample what corrections say of it (objects_of_corrections), for learning.
+/// Adds what Corrections::find warns of.
+void add_corrections(const Corrections& corrections, Sample& sample, std::vector<Issue>& issues,
+                     const ScoreOptions& options = {});
+
+/// The same for all buildings that have predictions, by their records; also E153 for corrections of
+/// others.
+void add_corrections(const Corrections& corrections, LabelsAndTruth& all,
+                     std::vector<Issue>& issues, const ScoreOptions& options = {});
+
+/// What the rules said of a building before its labels were corrected.
+Interpretation without_corrections(const PipelineResult& result);
+
+/// "corrected to door by ada (corrections.jsonl:3): it has a handle; the rules say:", or nothing
+/// where nobody corrected the feature.
+std::string correction_text(const PipelineResult& result, FeatureId feature);
+
+/// `"corrected":{"label","by","why"}`, or nothing.
+std::string correction_json(const PipelineResult& result, FeatureId feature);
+
+}  // namespace oriel
