@@ -148,6 +148,7 @@ LabelOptions RunOptions::label_options(StageObserver observer) const {
   options.measures_surfaces = !only_names_surfaces;
   options.measures_features = !only_labels_features;
   options.has_output = false;
+  options.corrections = corrections;
   return options;
 }
 

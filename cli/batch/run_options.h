@@ -6,6 +6,7 @@
 #include "oriel/read.h"
 
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -100,6 +101,8 @@ struct RunOptions {
   /// measured as far as rules read them.
   bool only_names_surfaces = false;
   bool only_labels_features = false;
+  /// What people say against the rules (--corrections); null: nothing.
+  std::shared_ptr<const Corrections> corrections;
 
   [[nodiscard]] ReadOptions read_options() const;
   /// The same for one of the inputs: stdin is a CityJSONSeq unless --from says more.

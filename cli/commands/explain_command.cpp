@@ -8,6 +8,7 @@
 #include "cli/terminal/table.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
+#include "oriel/corrections.h"
 #include "oriel/explain.h"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ struct ExplainArguments : RunOptions, RulesChoice {
   std::vector<double> at;
   bool is_json = false;
   bool is_full = false;
+  std::string corrections_file;
 };
 
 /// What is printed of a feature, as the options say.
@@ -49,13 +51,22 @@ class ExplanationPrinter {
                                 similar_rule(rules, arguments.rule)));
   }
 
+  /// What the rules say of a feature, after what somebody corrected.
+  [[nodiscard]] std::string text(const PipelineResult& result, const Explanation& explanation,
+                                 FeatureId feature) const {
+    if (!arguments_.is_json) return correction_text(result, feature) + text(explanation);
+    std::string object = to_json(explanation);
+    if (const std::string corrected = correction_json(result, feature); !corrected.empty())
+      object.insert(object.size() - 1, "," + corrected);
+    return object + "\n";
+  }
+
+ private:
   [[nodiscard]] std::string text(const Explanation& explanation) const {
-    if (arguments_.is_json) return to_json(explanation) + "\n";
     if (arguments_.is_full) return to_text(explanation);
     return rules_.empty() ? summary_text(explanation) : rules_text(explanation, rules_);
   }
 
- private:
   const ExplainArguments& arguments_;
   std::vector<std::size_t> rules_;
 };
@@ -76,12 +87,10 @@ void check_fit_for_surface(const ExplainArguments& arguments) {
 }
 
 /// What lies at a place: the feature there, or the surface where there is none.
-ExitCode explain_place(const ExplainArguments& arguments) {
+ExitCode explain_place(const ExplainArguments& arguments, const RuleBase& rules) {
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments, report);
-  if (!rules) return ExitCode::rules;
-  const ExplanationPrinter printer(arguments, *rules);
-  BatchRunner runner(arguments, &*rules, report);
+  const ExplanationPrinter printer(arguments, rules);
+  BatchRunner runner(arguments, &rules, report);
   const Vec3 point{arguments.at[0], arguments.at[1], arguments.at[2]};
   std::optional<double> nearest_m;
   std::string text;
@@ -95,8 +104,8 @@ ExitCode explain_place(const ExplainArguments& arguments) {
       nearest_m = found->distance_m;
       const FeatureId feature = feature_of(building, lines[i], found->polygon);
       is_surface = !feature.is_valid();
-      text = is_surface ? explain_surface(building, lines[i], *rules, found->polygon)
-                        : printer.text(explain(lines[i], *rules, feature));
+      text = is_surface ? explain_surface(building, lines[i], rules, found->polygon)
+                        : printer.text(lines[i], explain(lines[i], rules, feature), feature);
     }
   };
   RecordVisitor visitor(look_up, [&] {
@@ -111,18 +120,16 @@ ExitCode explain_place(const ExplainArguments& arguments) {
 }
 
 /// The surface of that number in every building that has one.
-ExitCode explain_surfaces(const ExplainArguments& arguments) {
+ExitCode explain_surfaces(const ExplainArguments& arguments, const RuleBase& rules) {
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments, report);
-  if (!rules) return ExitCode::rules;
-  BatchRunner runner(arguments, &*rules, report);
+  BatchRunner runner(arguments, &rules, report);
   std::string text;
   const auto look_up = [&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = std::ranges::find(building.polygons, arguments.surface, &Polygon::source);
       if (!lines[i].has_surfaces() || found == building.polygons.end()) continue;
-      text += explain_surface(building, lines[i], *rules,
+      text += explain_surface(building, lines[i], rules,
                               static_cast<std::size_t>(found - building.polygons.begin()));
     }
   };
@@ -195,18 +202,16 @@ std::string table_of(const Building& building, const PipelineResult& line, bool 
 }
 
 /// Every building that was asked for, with a line for each feature.
-ExitCode explain_buildings(const ExplainArguments& arguments) {
+ExitCode explain_buildings(const ExplainArguments& arguments, const RuleBase& rules) {
   if (!arguments.rule.empty()) throw CLI::ValidationError("--rule", "needs a feature");
   Report report(arguments.is_verbose);
-  const auto rules = load_rules(arguments, report);
-  if (!rules) return ExitCode::rules;
-  BatchRunner runner(arguments, &*rules, report);
+  BatchRunner runner(arguments, &rules, report);
   std::string text;
   const auto list = [&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!lines[i].is_done()) continue;
       const Building& building = document.buildings[i];
-      text += arguments.is_json ? to_json(building.id, explain_features(lines[i], *rules)) + "\n"
+      text += arguments.is_json ? to_json(building.id, explain_features(lines[i], rules)) + "\n"
                                 : table_of(building, lines[i], arguments.is_full);
     }
   };
@@ -274,17 +279,19 @@ bool may_be_id(std::string_view text) {
 ExitCode work(ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
-  if (arguments.surface >= 0) return explain_surfaces(arguments);
-  if (!arguments.at.empty()) return explain_place(arguments);
-  if (arguments.feature.empty()) return explain_buildings(arguments);
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
+  const ExitCode before =
+      take_corrections(arguments.corrections_file, *rules, arguments, report, ExitCode::clean);
+  if (arguments.surface >= 0) return graver(before, explain_surfaces(arguments, *rules));
+  if (!arguments.at.empty()) return graver(before, explain_place(arguments, *rules));
+  if (arguments.feature.empty()) return graver(before, explain_buildings(arguments, *rules));
   const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
-  std::optional<Explanation> first;
+  std::string first;
   std::vector<FoundFeature> all, matches;
   const auto clear = [&] {
-    first.reset();
+    first.clear();
     all.clear();
     matches.clear();
   };
@@ -300,7 +307,7 @@ ExitCode work(ExplainArguments& arguments) {
         all.push_back(entry(FeatureId{static_cast<int>(i)}));
       for (const FeatureId id : find_features(line, arguments.feature)) {
         matches.push_back(entry(id));
-        if (!first) first = explain(line, *rules, id);
+        if (first.empty()) first = printer.text(line, explain(line, *rules, id), id);
       }
     }
   };
@@ -309,8 +316,8 @@ ExitCode work(ExplainArguments& arguments) {
   const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && all.empty());
   if (matches.size() > 1) refuse_several(arguments.feature, matches);
   if (matches.empty() && !has_said_why) refuse_unknown(arguments.feature, all);
-  if (first) print_out(printer.text(*first), arguments.is_json);
-  return code;
+  if (!first.empty()) print_out(first, arguments.is_json);
+  return graver(before, code);
 }
 
 }  // namespace
@@ -343,6 +350,7 @@ void add_explain(CLI::App& app, Action& action) {
       ->excludes(feature)
       ->excludes(surface);
   add_rules_arguments(*command, *arguments);
+  add_corrections_argument(*command, arguments->corrections_file);
   command
       ->add_option("--id", arguments->selection.ids,
                    "Only the building with this id; the others are read and skipped")

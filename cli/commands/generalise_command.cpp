@@ -178,6 +178,7 @@ class Generaliser final : public ProducingCommand {
   /// Features that are gone, by label.
   [[nodiscard]] std::map<std::string, int> removed() const { return counted(kRemoved); }
   /// Of features that stay.
+  [[nodiscard]] std::optional<Issue> lacking_columns() const { return outputs_.lacking_columns(); }
   [[nodiscard]] std::vector<Issue> untyped() const { return outputs_.untyped(counted(kKept)); }
 
  private:
@@ -333,6 +334,7 @@ ExitCode work(GeneraliseArguments& arguments) {
   Generaliser command(arguments, *targets, *rules, runner);
   const ExitCode code = runner.run(command);
   if (runner.was_done()) return code;
+  if (const auto lacking = command.lacking_columns()) report.add(*lacking);
   report.add(command.untyped());
   runner.report_summary("generalised to " + targets->text(), command.removed(), " left out");
   return code;

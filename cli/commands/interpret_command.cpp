@@ -2,6 +2,7 @@
 #include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/column_choice.h"
 #include "cli/output/named_files.h"
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
@@ -36,6 +37,7 @@ namespace {
 struct InterpretArguments : RulesChoice {
   std::vector<std::string> records;
   std::string out;
+  std::vector<std::string> columns;
   bool has_safe_cells = false;
   std::size_t examples = 3;
   int jobs = 1;
@@ -109,19 +111,45 @@ class StoredFeatures {
   StoredFeatures(std::vector<std::string> files, Report& report)
       : files_(std::move(files)), report_(report) {
     for (const std::string& file : files_) {
-      auto tables = read_feature_tables(file);
+      RecordColumns columns;
+      auto tables = read_feature_tables(file, &columns);
       report_.add(tables.issues);
       if (has_errors(tables.issues))
         code_ = graver(code_, tables.value ? ExitCode::set_aside : ExitCode::input);
-      if (tables.value)
-        buildings_.insert(buildings_.end(), std::make_move_iterator(tables.value->begin()),
-                          std::make_move_iterator(tables.value->end()));
+      columns_.push_back(std::move(columns));
+      if (!tables.value) continue;
+      common_ = common_columns(common_, columns_.back());
+      buildings_.insert(buildings_.end(), std::make_move_iterator(tables.value->begin()),
+                        std::make_move_iterator(tables.value->end()));
     }
   }
 
   /// What reading them came to.
   [[nodiscard]] ExitCode code() const { return code_; }
   [[nodiscard]] const std::vector<DescribedBuilding>& buildings() const { return buildings_; }
+
+  /// A warning E151 for each file that lacks columns which the rules read.
+  [[nodiscard]] std::vector<Issue> lacking_columns(const RuleBase& rules) const {
+    std::vector<Issue> issues;
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (auto lacking = lacks_columns(files_[i], columns_[i], rules))
+        issues.push_back(std::move(*lacking));
+    return issues;
+  }
+
+  /// What can be written: the columns that all files have, the labels, and the names if they can be
+  /// made.
+  [[nodiscard]] RecordColumns writable_columns(const RuleBase& rules) const {
+    if (common_.empty()) return {};
+    RecordColumns columns = common_;
+    const RecordColumns labels = chosen_columns({"labels"}, rules);
+    for (std::size_t field = 0; field < columns.size(); ++field)
+      columns[field] = columns[field] || labels[field];
+    const auto name = static_cast<std::size_t>(std::ranges::find(record_fields(), "name") -
+                                               record_fields().begin());
+    columns[name] = columns[name] && has_columns_of_names(common_);
+    return columns;
+  }
 
   /// One for each building. Up to `jobs` shares are interpreted at the same time; what comes of it
   /// does not depend on that.
@@ -144,16 +172,17 @@ class StoredFeatures {
   }
 
   /// Writes the records as they were read with the verdicts of `run`.
-  void write(const std::string& path, bool has_safe_cells, const std::vector<Interpretation>& run) {
+  void write(const std::string& path, bool has_safe_cells, const std::vector<Interpretation>& run,
+             const RecordColumns& columns) {
     const RecordFormat format = *record_format_of(path);
-    FeatureRecordWriter writer(path);
+    FeatureRecordWriter writer(path, columns);
     RecordLabeller labeller(buildings_, run);
     for (const std::string& file : files_) {
       // Of one building: labels of others are parts of a feature's name.
       std::vector<FeatureRecord> records;
       const auto write_building = [&] {
-        set_names(records);
-        const std::string text = FeatureRecordWriter::text(format, records);
+        if (has_columns_of_names(common_)) set_names(records);
+        const std::string text = FeatureRecordWriter::text(format, records, columns);
         const bool is_safe = has_safe_cells && format == RecordFormat::csv;
         writer.append(is_safe ? with_safe_cells(text) : text);
         records.clear();
@@ -178,6 +207,9 @@ class StoredFeatures {
   Report& report_;
   ExitCode code_ = ExitCode::clean;
   std::vector<DescribedBuilding> buildings_;
+  /// File by file, and those that all have.
+  std::vector<RecordColumns> columns_;
+  RecordColumns common_;
 };
 
 /// A table of how many features each label and rule has.
@@ -211,6 +243,7 @@ void print_now(const std::string& text) {
     const auto pack = load_pack(arguments.rules, report);
     if (pack) files.follow(pack->files());
     if (const auto rules = pack ? with_params(*pack, arguments.params, report) : std::nullopt) {
+      report.add(features.lacking_columns(*rules));
       auto run = features.interpreted(*rules, arguments.jobs);
       print_now(is_first
                     ? listing(run)
@@ -226,7 +259,22 @@ void print_now(const std::string& text) {
   }
 }
 
+/// Those that are asked for; a column that is named and that the records lack is wrong usage.
+RecordColumns columns_to_write(const InterpretArguments& arguments, const StoredFeatures& features,
+                               const RuleBase& rules) {
+  const RecordColumns writable = features.writable_columns(rules);
+  for (const std::string& word : arguments.columns)
+    for (std::size_t field = 0; field < record_fields().size(); ++field)
+      if (record_fields()[field] == word && !has_column(writable, field))
+        throw CLI::ValidationError(
+            "--columns",
+            fmt::format("the records have no column '{}', or not what it takes", word));
+  return common_columns(writable, chosen_columns(arguments.columns, rules));
+}
+
 ExitCode work(InterpretArguments& arguments) {
+  if (!arguments.columns.empty() && arguments.out.empty())
+    throw CLI::ValidationError("--columns", "needs -o, the table that has them");
   if (arguments.is_watching && !arguments.out.empty())
     throw CLI::ValidationError("--watch", "writes no file: leave out -o");
   Report report(arguments.is_verbose);
@@ -244,12 +292,17 @@ ExitCode work(InterpretArguments& arguments) {
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   StoredFeatures features(arguments.records, report);
+  const auto lacking = features.lacking_columns(*rules);
+  report.add(lacking);
   const auto run = features.interpreted(*rules, arguments.jobs);
   if (arguments.out.empty())
     print_now(listing(run));
   else if (!features.buildings().empty() || features.code() != ExitCode::input)
-    features.write(arguments.out, arguments.has_safe_cells, run);
-  if (!features.buildings().empty() || features.code() == ExitCode::input) return features.code();
+    features.write(arguments.out, arguments.has_safe_cells, run,
+                   columns_to_write(arguments, features, *rules));
+  const ExitCode code =
+      graver(features.code(), lacking.empty() ? ExitCode::clean : ExitCode::set_aside);
+  if (!features.buildings().empty() || features.code() == ExitCode::input) return code;
   report.add(nothing_to_work_on(arguments.records, "no feature"));
   return graver(features.code(), ExitCode::set_aside);
 }
@@ -267,6 +320,7 @@ void add_interpret(CLI::App& app, Action& action) {
   add_rules_arguments(*command, *arguments);
   add_records_output(*command, "-o,--output", arguments->out,
                      "Write the records with their new labels: .csv, .json or .jsonl");
+  add_columns_argument(*command, arguments->columns);
   add_safe_cells_argument(*command, arguments->has_safe_cells);
   command->add_flag("--watch", arguments->is_watching,
                     "Run again whenever the pack is saved, and report what changed");

@@ -21,6 +21,7 @@ namespace oriel::cli {
 namespace {
 
 struct LabelArguments : LabellingArguments {
+  std::string corrections_file;
   std::string existing = "fill";
   bool is_json = false;
   bool is_repaired = false;
@@ -104,7 +105,11 @@ class Labeller final : public ProducingCommand {
   Labeller(const LabelArguments& arguments, const RuleBase& rules, BatchRunner& runner)
       : arguments_(arguments), runner_(runner), outputs_(arguments, rules) {}
 
-  void name_files(NamedFiles& files) const override { outputs_.name_files(files); }
+  void name_files(NamedFiles& files) const override {
+    outputs_.name_files(files);
+    if (!arguments_.corrections_file.empty())
+      files.add_input("--corrections", arguments_.corrections_file);
+  }
   void begin(std::size_t input) override { outputs_.begin(input, !runner_.is_last_run()); }
   Product make(std::size_t input, const Document& document,
                const std::vector<PipelineResult>& results, Timings& timings) const override {
@@ -112,6 +117,8 @@ class Labeller final : public ProducingCommand {
   }
   void take(const Document& document, Product product) override {
     if (!runner_.is_last_run()) product[OutputPart::listing].clear();
+    if (arguments_.corrections)
+      for (const Building& building : document.buildings) buildings_.insert(building.id);
     outputs_.take(document, product);
   }
   void end(std::size_t /*input*/) override {
@@ -126,6 +133,11 @@ class Labeller final : public ProducingCommand {
                        arguments_.is_repaired, outputs_.recipe());
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
+
+  [[nodiscard]] std::optional<Issue> lacking_columns() const { return outputs_.lacking_columns(); }
+
+  /// The buildings that were read.
+  [[nodiscard]] const std::set<std::string>& buildings() const { return buildings_; }
 
   /// Of all that was labelled.
   [[nodiscard]] std::vector<Issue> untyped() const {
@@ -157,6 +169,8 @@ class Labeller final : public ProducingCommand {
   const LabelArguments& arguments_;
   BatchRunner& runner_;
   LabelOutputs outputs_;
+  /// With corrections.
+  std::set<std::string> buildings_;
 };
 
 ExitCode work(LabelArguments& arguments) {
@@ -175,10 +189,19 @@ ExitCode work(LabelArguments& arguments) {
   if (!rules) return ExitCode::rules;
   arguments.seeks_features = rules->rule_count() > 0;
   arguments.gives_only_features = arguments.out.empty();
+  const ExitCode before =
+      take_corrections(arguments.corrections_file, *rules, arguments, report, ExitCode::clean);
   BatchRunner runner(arguments, &*rules, report);
   Labeller command(arguments, *rules, runner);
-  const ExitCode code = runner.run(command);
+  ExitCode code = graver(before, runner.run(command));
   if (runner.was_done()) return code;
+  if (const auto lacking = command.lacking_columns()) report.add(*lacking);
+  // A run that goes on, or takes results, has not seen all buildings.
+  if (arguments.corrections && !arguments.is_resumable && arguments.reuse.empty()) {
+    const auto unknown = arguments.corrections->unknown_buildings(command.buildings());
+    report.add(unknown);
+    if (!unknown.empty()) code = graver(code, ExitCode::set_aside);
+  }
   report.add(command.untyped());
   runner.report_summary("labelled", runner.state().labels);
   return code;
@@ -202,6 +225,7 @@ void add_label(CLI::App& app, Action& action) {
                     "Ignore what the input calls its polygons when looking for parts");
   command->add_flag("--repaired", arguments->is_repaired,
                     "Write the valid solid of each building, as repair makes it, with its labels");
+  add_corrections_argument(*command, arguments->corrections_file);
   command->add_flag("--explain", arguments->has_reasons,
                     "Write the reason for every label and surface into the file, as oriel_why");
   command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");

@@ -1,6 +1,7 @@
 #include "cli/commands/options.h"
 
 #include "cli/batch/batch_command.h"
+#include "cli/output/column_choice.h"
 #include "cli/output/label_outputs.h"
 #include "cli/terminal/option_values.h"
 #include "kernel/base/counted.h"
@@ -258,6 +259,23 @@ void add_safe_cells_argument(CLI::App& command, bool& is_safe) {
                    "that begin with = + - @ and are not numbers");
 }
 
+void add_corrections_argument(CLI::App& command, std::string& file) {
+  command.add_option("--corrections", file,
+                     "What features are, whatever the rules say: lines of JSON with building, "
+                     "feature or point, class, by, why");
+}
+
+ExitCode take_corrections(const std::string& file, const RuleBase& rules, RunOptions& arguments,
+                          Report& report, ExitCode code) {
+  if (file.empty()) return code;
+  auto read = read_corrections(file);
+  report.add(read.issues);
+  const auto unknown = drop_unknown_classes(*read.value, rules.labels());
+  report.add(unknown);
+  arguments.corrections = std::make_shared<Corrections>(*read.value);
+  return read.issues.empty() && unknown.empty() ? code : graver(code, ExitCode::set_aside);
+}
+
 void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   add_line_arguments(command, a, true);
   add_rules_arguments(command, a);
@@ -266,6 +284,7 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   command.add_option("--to", a.to, "Format to write (default: from the name of the output)")
       ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   add_features_argument(command, a.features);
+  add_columns_argument(command, a.columns);
   add_safe_cells_argument(command, a.has_safe_cells);
   add_resume_argument(command, a);
   add_reuse_argument(command, a);

@@ -2,6 +2,7 @@
 
 #include "cli/batch/rules_choice.h"
 #include "cli/batch/run_options.h"
+#include "cli/terminal/exit_code.h"
 #include "cli/terminal/logging.h"
 #include "kernel/io/files/format.h"
 #include "oriel/rules.h"
@@ -77,6 +78,14 @@ void add_records_output(CLI::App& command, const std::string& option, std::strin
 
 /// Adds `--safe-cells`, for commands that write CSV.
 void add_safe_cells_argument(CLI::App& command, bool& is_safe);
+
+/// Adds `--corrections FILE`.
+void add_corrections_argument(CLI::App& command, std::string& file);
+
+/// Reads corrections for labels of the pack, reports what is wrong with them, and sets them for the
+/// run; nothing for no file. The gravest exit code for it, at least `code`.
+ExitCode take_corrections(const std::string& file, const RuleBase& rules, RunOptions& arguments,
+                          Report& report, ExitCode code);
 
 /// Adds all that the commands share that label buildings and write them.
 void add_label_arguments(CLI::App& command, LabellingArguments& arguments);

@@ -11,6 +11,7 @@
 #include "kernel/base/counted.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/feature_records.h"
+#include "oriel/corrections.h"
 #include "oriel/score.h"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ struct ScoreArguments : RunOptions, RulesChoice {
   std::string per_building;
   std::string curve;
   std::string joined;
+  std::string corrections_file;
   std::size_t samples = 0;
   bool is_paired = false;
   bool is_by_rule = false;
@@ -93,6 +95,17 @@ void read_truth_files(const ScoreArguments& arguments, LabelsAndTruth& all, Repo
     if (truths.value)
       for (const GroundTruth& truth : *truths.value) add(truth, all);
   }
+}
+
+/// Corrections are the truth of their features where there is no other.
+void add_corrections(const ScoreArguments& arguments, const ScoreOptions& options,
+                     LabelsAndTruth& all, Report& report, ExitCode& code) {
+  if (arguments.corrections_file.empty()) return;
+  const auto read = read_corrections(arguments.corrections_file);
+  std::vector<Issue> issues = read.issues;
+  oriel::add_corrections(Corrections(*read.value), all, issues, options);
+  report.add(issues);
+  if (!issues.empty()) code = graver(code, ExitCode::set_aside);
 }
 
 /// Areas come from the models that were labelled: neither records nor truth know them.
@@ -185,6 +198,7 @@ ExitCode score_features(const ScoreArguments& arguments) {
   read_truth_files(arguments, all, report, code);
   ScoreOptions options;
   options.min_iou = arguments.min_iou;
+  add_corrections(arguments, options, all, report, code);
   if (const auto issue = missing_records(all, options)) {
     report.add(*issue);
     code = graver(code, ExitCode::set_aside);
@@ -277,10 +291,11 @@ ExitCode score_paired(const ScoreArguments& arguments) {
   read_records(arguments.inputs[0], first, report, code);
   read_records(arguments.inputs[1], second, report, code);
   read_truth_files(arguments, first, report, code);
-  second.truth = first.truth;
-  keep_common_buildings(arguments, first, second, report, code);
   ScoreOptions options;
   options.min_iou = arguments.min_iou;
+  add_corrections(arguments, options, first, report, code);
+  second.truth = first.truth;
+  keep_common_buildings(arguments, first, second, report, code);
   if (const auto issue = missing_records(first, options)) {
     report.add(*issue);
     code = graver(code, ExitCode::set_aside);
@@ -362,6 +377,8 @@ void check_names(const ScoreArguments& arguments) {
   files.add_output("--per-building", arguments.per_building);
   files.add_output("--curve", arguments.curve);
   files.add_output("--join", arguments.joined);
+  if (!arguments.corrections_file.empty())
+    files.add_input("--corrections", arguments.corrections_file);
   files.check();
 }
 
@@ -388,7 +405,8 @@ ExitCode work(ScoreArguments& arguments) {
   }
   check_names(arguments);
   if (arguments.is_of_surfaces) return score_surfaces(arguments);
-  if (arguments.truth.empty()) throw CLI::RequiredError("--truth");
+  if (arguments.truth.empty() && arguments.corrections_file.empty())
+    throw CLI::RequiredError("--truth");
   return arguments.is_paired ? score_paired(arguments) : score_features(arguments);
 }
 
@@ -412,6 +430,7 @@ void add_score(CLI::App& app, Action& action) {
   command->add_option("--budget", arguments->budget,
                       "With --surfaces: most steps that each stage may take on one building");
   add_rules_arguments(*command, *arguments);
+  add_corrections_argument(*command, arguments->corrections_file);
   add_comparison_arguments(*command, *arguments);
   command->add_flag("--json", arguments->is_json, "Print JSON, with all misses");
   command->add_flag("-v,--verbose", arguments->is_verbose,

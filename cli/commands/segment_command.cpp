@@ -2,6 +2,7 @@
 #include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/column_choice.h"
 #include "cli/output/paper_table.h"
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/table.h"
@@ -33,6 +34,9 @@ struct SegmentArguments : RunOptions {
   bool counts_as_paper = false;
   std::string out = "-";
   std::string features;
+  std::vector<std::string> columns;
+  /// The pack whose columns "rules" are; empty: the default one.
+  std::string rules;
   bool has_safe_cells = false;
 };
 
@@ -135,8 +139,8 @@ std::string tree_report(const std::string& building, const TreeComparison& trees
 /// Writes JSON or a listing, and the records of features, each if asked for.
 class Segmenter final : public VisitingCommand {
  public:
-  Segmenter(const SegmentArguments& arguments, BatchRunner& runner)
-      : arguments_(arguments), runner_(runner) {}
+  Segmenter(const SegmentArguments& arguments, RecordColumns columns, BatchRunner& runner)
+      : arguments_(arguments), columns_(std::move(columns)), runner_(runner) {}
 
   void name_files(NamedFiles& files) const override {
     if (has_text()) files.add_output("-o", arguments_.out);
@@ -146,7 +150,7 @@ class Segmenter final : public VisitingCommand {
     if (!runner_.is_last_run()) return;
     if (!text_ && has_text()) text_ = std::make_unique<OutputFile>(arguments_.out);
     if (!features_ && !arguments_.features.empty())
-      features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
+      features_ = std::make_unique<FeatureRecordWriter>(arguments_.features, columns_);
   }
   void visit(const Document& document, std::vector<PipelineResult>& results) override {
     runner_.timings().measure(Stage::write, [&] {
@@ -183,7 +187,8 @@ class Segmenter final : public VisitingCommand {
     if (text_) text_->append(text);
     if (!features_) return;
     const RecordFormat format = *record_format_of(arguments_.features);
-    const std::string records = FeatureRecordWriter::text(format, feature_records(building, line));
+    const std::string records =
+        FeatureRecordWriter::text(format, feature_records(building, line), columns_);
     const bool is_safe = arguments_.has_safe_cells && format == RecordFormat::csv;
     features_->append(is_safe ? with_safe_cells(records) : records);
   }
@@ -224,6 +229,7 @@ class Segmenter final : public VisitingCommand {
   }
 
   const SegmentArguments& arguments_;
+  RecordColumns columns_;
   BatchRunner& runner_;
   std::unique_ptr<OutputFile> text_;
   std::unique_ptr<FeatureRecordWriter> features_;
@@ -236,9 +242,19 @@ ExitCode work(SegmentArguments& arguments) {
   arguments.seeks_features = true;
   arguments.gives_only_features =
       !arguments.is_json && !arguments.has_tree && !arguments.counts_as_paper;
+  if ((!arguments.columns.empty() || !arguments.rules.empty()) && arguments.features.empty())
+    throw CLI::ValidationError(arguments.columns.empty() ? "--rules" : "--columns",
+                               "needs --features, the table that has them");
+  const auto rules =
+      load_rules({arguments.rules.empty() ? "residential" : arguments.rules, {}}, report);
+  if (!rules) return ExitCode::rules;
+  const RecordColumns columns = chosen_columns(arguments.columns, *rules);
   BatchRunner runner(arguments, nullptr, report);
-  Segmenter command(arguments, runner);
+  Segmenter command(arguments, columns, runner);
   const ExitCode code = runner.run(command);
+  if (!arguments.columns.empty())
+    if (const auto lacking = lacks_columns(arguments.features, columns, *rules))
+      report.add(*lacking);
   runner.report_summary("segmented", {});
   return code;
 }
@@ -270,6 +286,9 @@ void add_segment(CLI::App& app, Action& action) {
       ->excludes(faces);
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   add_features_argument(*command, arguments->features);
+  add_columns_argument(*command, arguments->columns);
+  command->add_option("--rules", arguments->rules,
+                      "With --columns: the rule pack that will read the table (residential)");
   add_safe_cells_argument(*command, arguments->has_safe_cells);
   command->footer(
       "Example:\n  oriel segment house.city.json --json | jq .stats\n  oriel segment "

@@ -24,7 +24,12 @@ LabelOptions LabellingArguments::label_options(StageObserver observer) const {
 }
 
 LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& rules)
-    : arguments_(arguments), rules_(rules), options_(arguments.label_options()) {
+    : arguments_(arguments),
+      rules_(rules),
+      options_(arguments.label_options()),
+      columns_(chosen_columns(arguments.columns, rules)) {
+  if (!arguments.columns.empty() && arguments.features.empty())
+    throw CLI::ValidationError("--columns", "needs --features, the table that has them");
   const auto codelists = rules.codelists();
   if (!codelists.empty() && std::ranges::find(codelists, arguments.codelist) == codelists.end())
     throw CLI::ValidationError(
@@ -45,6 +50,11 @@ LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& 
 std::vector<Issue> LabelOutputs::untyped(const std::map<std::string, int>& labels) const {
   if (!sink_ || !sink_->names_features()) return {};
   return report_untyped(labels, rules_);
+}
+
+std::optional<Issue> LabelOutputs::lacking_columns() const {
+  if (arguments_.features.empty()) return std::nullopt;
+  return lacks_columns(arguments_.features, columns_, rules_);
 }
 
 LabelledBuilding LabelOutputs::annotated(const Building& building,
@@ -72,7 +82,7 @@ void LabelOutputs::reopen() {
 
 void LabelOutputs::open_features() {
   if (!features_ && !arguments_.features.empty())
-    features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
+    features_ = std::make_unique<FeatureRecordWriter>(arguments_.features, columns_);
 }
 
 PartPlaces LabelOutputs::places() const {
@@ -86,10 +96,11 @@ PartPlaces LabelOutputs::places() const {
 
 std::string LabelOutputs::recipe() const {
   if (!has_any() || !is_streaming() || arguments_.features.ends_with(".json")) return {};
-  return fmt::format("codelist={} buildings={} features={} safe={} ignores={}", arguments_.codelist,
-                     has_buildings(),
+  return fmt::format("codelist={} buildings={} features={} columns={} safe={} ignores={}",
+                     arguments_.codelist, has_buildings(),
                      std::filesystem::path(arguments_.features).extension().string(),
-                     arguments_.has_safe_cells, arguments_.ignores_semantics);
+                     fmt::join(names_of_columns(columns_), ","), arguments_.has_safe_cells,
+                     arguments_.ignores_semantics);
 }
 
 void LabelOutputs::make_buildings(std::size_t input, const Document& document, OutputRecord output,
@@ -104,7 +115,7 @@ void LabelOutputs::make_features(const Building& building, const PipelineResult&
   if (arguments_.features.empty()) return;
   const RecordFormat format = *record_format_of(arguments_.features);
   std::string& text = product[OutputPart::features];
-  std::string more = FeatureRecordWriter::text(format, feature_records(building, line));
+  std::string more = FeatureRecordWriter::text(format, feature_records(building, line), columns_);
   if (arguments_.has_safe_cells && format == RecordFormat::csv) more = with_safe_cells(more);
   if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
   text += more;

@@ -3,6 +3,7 @@
 #include "cli/batch/outcome.h"
 #include "cli/batch/rules_choice.h"
 #include "cli/batch/run_options.h"
+#include "cli/output/column_choice.h"
 #include "cli/output/named_files.h"
 #include "cli/output/output_sink.h"
 #include "oriel/rules.h"
@@ -21,6 +22,8 @@ struct LabellingArguments : RunOptions, RulesChoice {
   std::string out;
   std::string to;
   std::string features;
+  /// Of the features: see chosen_columns(); empty: all.
+  std::vector<std::string> columns;
   /// Cells of CSV are with_safe_cells().
   bool has_safe_cells = false;
   std::string codelist = "sig3d";
@@ -48,6 +51,9 @@ class LabelOutputs {
 
   /// What was added is written by the next flush: nothing waits for the end of the input.
   [[nodiscard]] bool is_streaming() const;
+
+  /// A warning E151 if the table of features lacks columns that the rules read.
+  [[nodiscard]] std::optional<Issue> lacking_columns() const;
 
   /// Which of these labels have no type in files of buildings (report_untyped);
   /// nothing where such files name no features.
@@ -87,6 +93,7 @@ class LabelOutputs {
   const RuleBase& rules_;
   /// Of the arguments as they are when the outputs are made.
   LabelOptions options_;
+  RecordColumns columns_;
   std::optional<OutputSink> sink_;
   std::unique_ptr<FeatureRecordWriter> features_;
   bool has_ended_ = false;  ///< an input did
