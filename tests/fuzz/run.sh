@@ -34,7 +34,7 @@ dictionary_of() {
     citygml) echo citygml ;;
     obj | off | ply) echo mesh ;;
     packs | profiles | expressions) echo rules ;;
-    feature_tables | truth | operations | journal | status) echo records ;;
+    feature_tables | truth | corrections | operations | journal | status) echo records ;;
   esac
 }
 

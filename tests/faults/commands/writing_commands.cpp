@@ -74,7 +74,7 @@ std::vector<WritingCommand> writing_commands() {
       {"interpret", {"interpret", "@/parts.csv", "-o", "@/again.json"}, house(), {label}},
       {"score",
        {"score", "@/parts.csv", "--truth", source + "/examples/samples/house.truth.json",
-        "--per-building", "@/each.csv", "--curve", "@/curve.csv"},
+        "--per-building", "@/each.csv", "--curve", "@/curve.csv", "--join", "@/joined.csv"},
        house(),
        {label}},
       {"validate", {"validate", "@/in.city.json", "--json", "-o", "@/found.jsonl"}, house()},
