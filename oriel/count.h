@@ -47,4 +47,17 @@ inline constexpr std::int64_t kCountingBudgets = 2;
 PaperCount count_as_paper(const Building& building, const PipelineResult& result,
                           const PipelineOptions& options = {});
 
+/// What a recursion found: "protrusion", "hole", "cavity", "lumps", or "leaf": nothing.
+std::string found_in(const LiteralStep& step);
+
+/// Rows of texts, the first of them the heads of the columns.
+using CountTable = std::vector<std::vector<std::string>>;
+
+/// The planes, and sets of planes, that the first recursion tests: a row for what there are, then
+/// one for each of `count.counted`.
+CountTable first_recursion(const PaperCount& count);
+
+/// What all recursions come to: a row for each of `count.counted`, then for each of `count.orders`.
+CountTable all_recursions(const PaperCount& count);
+
 }  // namespace oriel
