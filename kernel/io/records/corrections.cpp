@@ -12,10 +12,8 @@ namespace oriel {
 
 namespace {
 
-using nlohmann::json;
-
 /// A text; empty where the member is absent. `fault` says what is wrong with it.
-std::string text_member(const json& object, const char* key, bool is_needed,
+std::string text_member(const nlohmann::json& object, const char* key, bool is_needed,
                         std::optional<std::string>& fault) {
   const auto found = object.find(key);
   const bool is_there = found != object.end() && !found->is_null();
@@ -26,19 +24,19 @@ std::string text_member(const json& object, const char* key, bool is_needed,
   return {};
 }
 
-std::optional<Vec3> point_member(const json& object, std::optional<std::string>& fault) {
+std::optional<Vec3> point_member(const nlohmann::json& object, std::optional<std::string>& fault) {
   const auto found = object.find("point");
   if (found == object.end() || found->is_null()) return std::nullopt;
   const bool is_point =
       found->is_array() && found->size() == 3 &&
-      std::ranges::all_of(*found, [](const json& value) { return value.is_number(); });
+      std::ranges::all_of(*found, [](const nlohmann::json& value) { return value.is_number(); });
   if (is_point)
     return Vec3{(*found)[0].get<double>(), (*found)[1].get<double>(), (*found)[2].get<double>()};
   if (!fault) fault = "'point' must be three numbers: x, y, z in the input's coordinates";
   return std::nullopt;
 }
 
-std::optional<std::string> read_correction(const json& object, Correction& correction) {
+std::optional<std::string> read_correction(const nlohmann::json& object, Correction& correction) {
   if (!object.is_object())
     return fmt::format("a correction is {}, not an object", object.type_name());
   std::optional<std::string> fault;

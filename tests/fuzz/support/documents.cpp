@@ -13,7 +13,7 @@ namespace oriel::fuzz {
 namespace {
 
 /// More polygons than that are not written: labels make texts longer than what was read.
-constexpr std::size_t kMostPolygons = 500;
+constexpr std::size_t kMostPolygonsRead = 500;
 
 LabelledBuilding with_labels(const Building& building) {
   LabelledBuilding labelled;
@@ -44,7 +44,7 @@ void write_meshes(const Document& document, const std::vector<LabelledBuilding>&
 bool is_small(const Document& document) {
   std::size_t polygons = 0;
   for (const Building& building : document.buildings) polygons += building.polygons.size();
-  return polygons <= kMostPolygons;
+  return polygons <= kMostPolygonsRead;
 }
 
 /// Of one whole file: lines of a stream need their header.
