@@ -8,7 +8,8 @@
 /// Every code that a finding can have: X(code, the number of val3dity's error that means the same
 /// or 0, what the code means), sorted. A code never changes its meaning and is never used again.
 /// Each has a section with this title in docs/errors.md, or in docs/rules.md for rule packs; those
-/// of profiles, R272 to R275, are in docs/generalisation.md.
+/// of profiles, R272 to R275, are in docs/generalisation.md, and those of experiments, R28x, in
+/// docs/experiments.md.
 ///
 /// E1xx the text of a file, E2xx the building model, E3xx geometry, E5xx limits, E6xx output, E9xx
 /// ours, G4xx operators of generalisation, R2xx rules.
@@ -189,7 +190,17 @@
   X(R272, 0, "Sizes of a profile that decide nothing, or twice") \
   X(R273, 0, "A class of a profile that the pack does not have") \
   X(R274, 0, "Sizes of a profile that do not form a chain") \
-  X(R275, 0, "No such level of a profile")
+  X(R275, 0, "No such level of a profile") \
+  X(R280, 0, "A pattern that matches no file") \
+  X(R281, 0, "A value beyond the range of its param") \
+  X(R282, 0, "A split with nothing on one side") \
+  X(R283, 0, "A class that the truth does not have") \
+  X(R284, 0, "Truth of another building") \
+  X(R285, 0, "A fold without an object of a class") \
+  X(R286, 0, "Features older than their input") \
+  X(R287, 0, "An experiment that measures nothing") \
+  X(R288, 0, "Stored features that cannot be made anew") \
+  X(R289, 0, "A building twice in a set")
 // clang-format on
 
 namespace oriel {
