@@ -1,56 +1,209 @@
-/// Labels of stored features under settings of a pack.
-///   bench_experiment full RECORDS PACK RUNS     microseconds of interpret() and score() a building
+/// Labels of stored features under many settings of a pack: processor time on one thread, features
+/// and truth in memory.
+///   bench_experiment sweep RECORDS TRUTH PACK VALUES   every param with a range at so many values
+///   bench_experiment ablate RECORDS TRUTH PACK         without each piece that can be left out
+///   bench_experiment random RECORDS TRUTH PACK COUNT   so many settings, all params at random
+/// One line: samples, features, settings, seconds in all, microseconds a sample and setting, those
+/// of interpret() and score() for comparison, and bytes a feature above the features themselves.
+#include "bench/peak_memory.h"
 #include "bench/timing.h"
-#include "interpret/labelling/labelling.h"
+#include "interpret/experiment/count_variants.h"
+#include "interpret/experiment/learn/learn_params.h"
 #include "interpret/labelling/interpret.h"
 #include "interpret/pack/rule_base.h"
+#include "kernel/base/random.h"
 #include "kernel/io/records/feature_tables.h"
+#include "oriel/score.h"
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <map>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 
+namespace {
+
 using namespace oriel;
 
-int main(int argc, char** argv) {
-  if (argc != 5) return 2;
-  const auto rules = load_pack_file(argv[3]);
-  const auto tables = read_feature_tables(argv[2]);
-  if (!rules.value || !tables.value) return 1;
-  const auto runs = static_cast<std::size_t>(std::atoi(argv[4]));
-  std::size_t rows = 0;
-  const double ms = bench::cpu_ms_of(runs, [&] {
-    rows = 0;
-    for (const auto& b : *tables.value) rows += interpret(*rules.value, b.table, b.graph).verdicts.size();
+std::vector<Sample> read_samples(const std::string& records, const std::string& truth_file) {
+  std::vector<Sample> samples;
+  auto tables = read_feature_tables(records);
+  auto truths = read_truths(truth_file);
+  if (!tables.value || !truths.value) throw std::runtime_error("no records or no truth");
+  std::map<std::string, std::size_t> number_of;
+  for (DescribedBuilding& building : *tables.value) {
+    number_of[building.table.building()] = samples.size();
+    samples.push_back({std::move(building), {}, {}});
+  }
+  visit_feature_records(records, [&](const FeatureRecord& r) {
+    samples[number_of.at(r.building)].boxes.push_back(
+        {{r.aabb_m[0], r.aabb_m[1], r.aabb_m[2]}, {r.aabb_m[3], r.aabb_m[4], r.aabb_m[5]}});
   });
-  const auto n = static_cast<double>(tables.value->size());
-  const double context_ms = bench::cpu_ms_of(runs, [&] {
-    for (const auto& b : *tables.value) rules::EvaluationContext(rules.value->pack(), b.table, b.graph);
+  LabelsAndTruth all;
+  for (const GroundTruth& truth : *truths.value) add(truth, all);
+  for (ExpectedObject& object : all.truth)
+    if (const auto found = number_of.find(object.building); found != number_of.end())
+      samples[found->second].truth.push_back(std::move(object));
+  return samples;
+}
+
+std::vector<Variant> swept(const RuleBase& rules, int values) {
+  std::vector<Variant> variants;
+  for (const PackParam& param : params_of(rules)) {
+    if (!param.range) continue;
+    const auto [low, high] = *param.range;
+    for (int i = 0; i < values; ++i)
+      variants.push_back(
+          variant_with(rules, {{param.name, low + (high - low) * i / std::max(1, values - 1)}}));
+  }
+  return variants;
+}
+
+std::vector<Variant> drawn(const RuleBase& rules, int count) {
+  Random random(1);
+  std::vector<Variant> variants;
+  for (int i = 0; i < count; ++i) {
+    std::vector<ParamValue> values;
+    for (const PackParam& param : params_of(rules))
+      if (param.range)
+        values.push_back(
+            {param.name,
+             param.range->first + (param.range->second - param.range->first) * random.unit()});
+    variants.push_back(variant_with(rules, std::move(values)));
+  }
+  return variants;
+}
+
+double microseconds_alone(const RuleBase& rules, const std::vector<Sample>& samples) {
+  std::size_t labelled = 0;
+  const double ms = bench::cpu_ms_of(3, [&] {
+    for (const Sample& sample : samples) {
+      std::vector<Prediction> predictions;
+      for (const Verdict& verdict :
+           interpret(rules, sample.features.table, sample.features.graph).verdicts) {
+        Prediction& prediction = predictions.emplace_back();
+        prediction.building = sample.features.table.building();
+        prediction.id = sample.features.table.id(verdict.feature);
+        prediction.label = verdict.label;
+        prediction.box = sample.boxes[verdict.feature.index()];
+      }
+      labelled += score(predictions, sample.truth).classes.size();
+    }
   });
-  fmt::print("buildings={} rows={} interpret_us={:.1f} context_us={:.1f}\n", n, rows, ms * 1e3 / n, context_ms * 1e3 / n);
-  const rules::Pack& pack = rules.value->pack();
-  for (std::size_t s = 0; s < pack.steps.size(); ++s) {
-    fmt::print("step {} {} {}:", s, pack.steps[s].is_decision ? "decision" : "predicates", pack.steps[s].is_recursive ? "recursive" : "");
-    for (int r : pack.steps[s].rules) fmt::print(" {}", pack.rules[size_t(r)].id);
+  return labelled == 0 ? 0 : ms * 1e3 / static_cast<double>(samples.size());
+}
+
+/// Every param somewhere in its range, if the seed is not 0.
+RuleBase moved(const RuleBase& rules, std::uint64_t seed) {
+  RuleBase at = rules;
+  Random random(seed);
+  for (const PackParam& param : params_of(rules)) {
+    if (seed == 0 || !param.range) continue;
+    const double value =
+        param.range->first + (param.range->second - param.range->first) * random.unit();
+    const std::vector<ParamValue> values{{param.name, value}};
+    if (auto next = with_params(at, values); next.value) at = *next.value;
+  }
+  return at;
+}
+
+void on_two_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto take = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  const std::jthread other(take);
+  take();
+}
+
+int learn(const std::vector<std::string>& arguments) {
+  const auto rules = load_pack_file(arguments[2]);
+  if (!rules.value) return EXIT_FAILURE;
+  const std::vector<Sample> samples = read_samples(arguments[0], arguments[1]);
+  const auto folds = static_cast<std::size_t>(std::atoi(arguments[3].c_str()));
+  const auto seed = static_cast<std::uint64_t>(std::atoi(arguments[4].c_str()));
+  LearnOptions options;
+  if (arguments.size() > 5) options.restarts = std::atoi(arguments[5].c_str());
+  const auto parts = folds_of(samples.size(), folds, 1);
+  const auto start = std::chrono::steady_clock::now();
+  const auto learnt =
+      learn_params(moved(*rules.value, seed), samples, parts, options, on_two_threads);
+  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const Issue& issue : learnt.issues) fmt::print("{}\n", to_string(issue));
+  if (!learnt.value) return EXIT_FAILURE;
+  const Learnt& l = *learnt.value;
+  const std::vector<Variant> as_it_is{{"as it is", {}, {}, {}}};
+  const double shipped = macro_f1(count_variants(*rules.value, as_it_is, samples).value->total(0));
+  fmt::print(
+      "learn s={:.1f} all {:.4f} -> {:.4f}, held out {:.4f} -> {:.4f} [{:+.4f} {:+.4f}], shipped "
+      "{:.4f} {}\n",
+      s, l.before, l.after, l.held_out_before, l.held_out_after, l.held_out_gain.low,
+      l.held_out_gain.high, shipped, l.reason);
+  for (const LearntParam& p : l.params)
+    fmt::print("  {} {:.4f} -> {} gain {:.4f} [{:.4f} {:.4f}] folds {}\n", p.value.name, p.before,
+               p.value.value, p.gain, p.interval.low, p.interval.high, p.folds);
+  for (const auto& fold : l.by_fold) {
+    fmt::print("  fold:");
+    for (const ParamValue& p : fold) fmt::print(" {}={}", p.name, p.value);
     fmt::print("\n");
   }
-  // by rule
-  std::vector<double> us(pack.rules.size());
-  for (const auto& b : *tables.value) {
-    rules::EvaluationContext context(pack, b.table, b.graph);
-    rules::Labelling(pack, context).run();
-    rules::Evaluator evaluator(pack, context);
-    for (std::size_t r = 0; r < pack.rules.size(); ++r) {
-      us[r] += 1e3 * bench::cpu_ms_of(1, [&] {
-        evaluator.forget();
-        for (int k = 0; k < 10; ++k) { evaluator.forget(); judge(pack, pack.rules[r], evaluator, context.row_numbers); }
-      }) / 10;
-    }
+  for (const KnifeEdge& e : l.knife_edges)
+    fmt::print("  knife edge {} = {}: {:+.4f} at {:.4f} ({:.2f} %), {} objects\n", e.param, e.value,
+               e.change, e.flip, 100 * e.distance_share, e.objects);
+  return EXIT_SUCCESS;
+}
+
+int run(const std::string& what, const std::vector<std::string>& arguments) {
+  const auto rules = load_pack_file(arguments[2]);
+  if (!rules.value) return EXIT_FAILURE;
+  const std::vector<Sample> samples = read_samples(arguments[0], arguments[1]);
+  std::size_t rows = 0;
+  for (const Sample& sample : samples) rows += sample.features.table.rows();
+  const int count = arguments.size() > 3 ? std::atoi(arguments[3].c_str()) : 0;
+  std::vector<Variant> variants = what == "sweep"    ? swept(*rules.value, count)
+                                  : what == "random" ? drawn(*rules.value, count)
+                                                     : ablations(*rules.value);
+  std::erase_if(variants, [&](const Variant& v) { return !with_variant(*rules.value, v).value; });
+  double best = 0;
+  std::size_t bytes = 0;
+  const double ms = bench::cpu_ms_of(1, [&] {
+    bytes = bench::peak_bytes_of([&] {
+      const auto counted = count_variants(*rules.value, variants, samples).value.value();
+      for (std::size_t v = 0; v < counted.variants(); ++v)
+        best = std::max(best, macro_f1(counted.total(v)));
+    });
+  });
+  const double runs = static_cast<double>(variants.size()) * static_cast<double>(samples.size());
+  fmt::print(
+      "{} samples={} features={} settings={} s={:.3f} us/run={:.1f} alone_us={:.1f} "
+      "bytes/feature={} best={:.4f}\n",
+      what, samples.size(), rows, variants.size(), ms / 1e3, ms * 1e3 / runs,
+      microseconds_alone(*rules.value, samples), bytes / std::max<std::size_t>(1, rows), best);
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + std::min(argc, 2), argv + argc);
+  const std::string_view what = argc > 1 ? argv[1] : "";
+  const bool is_counted = what == "sweep" || what == "random";
+  const bool is_learn = what == "learn" && arguments.size() >= 5;
+  if (!is_learn &&
+      ((what != "ablate" && !is_counted) || arguments.size() != (is_counted ? 4U : 3U))) {
+    fmt::print(stderr,
+               "usage: bench_experiment sweep|random RECORDS TRUTH PACK COUNT | ablate RECORDS "
+               "TRUTH PACK\n");
+    return 2;
   }
-  double all = 0;
-  for (std::size_t r = 0; r < us.size(); ++r) { fmt::print("{:8.2f} {}\n", us[r] / n, pack.rules[r].id); all += us[r] / n; }
-  fmt::print("{:8.2f} all\n", all);
+  return what == "learn" ? learn(arguments) : run(std::string(what), arguments);
 }

@@ -124,7 +124,7 @@ class VariantCounter {
     LabelCounter counter(sample, counts_.labels_, options_);
     for (std::size_t variant = 0; variant < changes_.size(); ++variant) {
       changed.become(changes_[variant]);
-      count(variant, number, relabelling.choices(changed, affected_[variant]), counter);
+      count(variant, number, relabelling.choices(changed.pack(), affected_[variant]), counter);
     }
   }
 

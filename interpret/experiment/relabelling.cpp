@@ -15,6 +15,10 @@ bool is_same_judgement(const Judgement& p, const Judgement& q) {
   return p.row == q.row && p.truth == q.truth && p.score == q.score;
 }
 
+bool are_same(const std::vector<Judgement>& p, const std::vector<Judgement>& q) {
+  return std::ranges::equal(p, q, is_same_judgement);
+}
+
 }  // namespace
 
 /// Judgements that hold as long as the classes which a rule asks for have the members that they had
@@ -63,32 +67,51 @@ std::vector<Choice> Relabelling::run(const Pack& pack, EvaluationContext& contex
 }
 
 /// Asks the affected rules with the memberships as they were; true if one says something else.
-bool Relabelling::ask(const ChangedPack& changed, const RuleUses::Affected& affected,
+bool Relabelling::ask(const Pack& changed, const RuleUses::Affected& affected,
                       EvaluationContext& context) {
   context.membership = membership_;
   is_anew_.assign(is_anew_.size(), false);
-  Evaluator evaluator(changed.pack(), context);
+  Evaluator evaluator(changed, context);
   bool is_other = false;
   for (const int rule : affected.rules) {
     const auto r = oriel::at(rule);
     judged_anew_[r] =
-        judge(changed.pack(), changed.pack().rules[r], evaluator, context.row_numbers);
+        judge(changed, changed.rules[r], evaluator, context.row_numbers);
     is_anew_[r] = true;
-    is_other = is_other || !std::ranges::equal(judged_anew_[r], judged_[r], is_same_judgement);
+    is_other = is_other || !are_same(judged_anew_[r], judged_[r]);
   }
   return is_other;
 }
 
-const std::vector<Choice>& Relabelling::choices(const ChangedPack& changed,
+/// The same rules say the same as when choices were made last, so that the same would be chosen.
+bool Relabelling::is_as_before(const RuleUses::Affected& affected) const {
+  if (affected.decides_anew || affected.rules != last_rules_) return false;
+  for (std::size_t i = 0; i < last_rules_.size(); ++i)
+    if (!are_same(judged_anew_[oriel::at(last_rules_[i])], last_judged_[i])) return false;
+  return true;
+}
+
+void Relabelling::keep(const RuleUses::Affected& affected) {
+  last_judged_.clear();
+  last_rules_.clear();
+  if (affected.decides_anew) return;
+  last_rules_ = affected.rules;
+  for (const int rule : last_rules_) last_judged_.push_back(judged_anew_[oriel::at(rule)]);
+}
+
+const std::vector<Choice>& Relabelling::choices(const Pack& changed,
                                                 const RuleUses::Affected& affected) {
   if (affected.rules.empty() && !affected.decides_anew) return choices_;
   std::optional<EvaluationContext> related_anew;
-  if (affected.has_other_relations) related_anew.emplace(changed.pack(), *table_, *graph_);
+  if (affected.has_other_relations) related_anew.emplace(changed, *table_, *graph_);
   EvaluationContext& context = related_anew ? *related_anew : context_;
-  if (pack_->rounds > 0) return changed_choices_ = run(changed.pack(), context, nullptr);
+  if (pack_->rounds > 0) return changed_choices_ = run(changed, context, nullptr);
   if (!ask(changed, affected, context) && !affected.decides_anew) return choices_;
+  if (is_as_before(affected)) return changed_choices_;
   const Known known(*this, context);
-  return changed_choices_ = run(changed.pack(), context, &known);
+  changed_choices_ = run(changed, context, &known);
+  keep(affected);
+  return changed_choices_;
 }
 
 }  // namespace oriel::rules

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "interpret/evaluate/evaluation_context.h"
-#include "interpret/experiment/changed_pack.h"
 #include "interpret/experiment/rule_uses.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/pack.h"
@@ -22,9 +21,13 @@ class Relabelling {
 
   /// What interpret() decides for every feature with the pack as it is.
   [[nodiscard]] const std::vector<Choice>& choices() const { return choices_; }
-  /// The same with a changed pack, whose base is this one. Valid until the next call.
-  const std::vector<Choice>& choices(const ChangedPack& changed,
-                                     const RuleUses::Affected& affected);
+  /// The same with a pack in which something is changed that affects that. Valid until the next
+  /// call.
+  const std::vector<Choice>& choices(const Pack& changed, const RuleUses::Affected& affected);
+
+  /// The building, with the memberships after the last rule of the pack as it is; valid until
+  /// choices() is asked.
+  [[nodiscard]] const EvaluationContext& context() const { return context_; }
 
   /// The class that was chosen, or kNoClass.
   static ClassId label_of(const Pack& pack, const Choice& choice) {
@@ -35,7 +38,9 @@ class Relabelling {
   class Known;
 
   void know_judgements();
-  bool ask(const ChangedPack& changed, const RuleUses::Affected& affected,
+  [[nodiscard]] bool is_as_before(const RuleUses::Affected& affected) const;
+  void keep(const RuleUses::Affected& affected);
+  bool ask(const Pack& changed, const RuleUses::Affected& affected,
            EvaluationContext& context);
   std::vector<Choice> run(const Pack& pack, EvaluationContext& context, const Known* known) const;
 
@@ -52,7 +57,10 @@ class Relabelling {
   /// What the affected rules say with the same memberships, by rule; and which these are.
   std::vector<std::vector<Judgement>> judged_anew_;
   std::vector<bool> is_anew_;
+  /// The last choices that were made anew, and what the affected rules had said.
   std::vector<Choice> changed_choices_;
+  std::vector<int> last_rules_;
+  std::vector<std::vector<Judgement>> last_judged_;
 };
 
 }  // namespace oriel::rules

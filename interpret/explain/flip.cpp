@@ -1,3 +1,4 @@
+#include "interpret/explain/turning_points.h"
 #include "interpret/explain/what_if.h"
 #include "interpret/language/quantity.h"
 

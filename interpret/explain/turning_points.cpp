@@ -1,5 +1,6 @@
+#include "interpret/explain/turning_points.h"
+
 #include "interpret/evaluate/evaluator.h"
-#include "interpret/explain/what_if.h"
 #include "interpret/params/depends_on.h"
 #include "kernel/base/index.h"
 
@@ -18,13 +19,6 @@ namespace {
 constexpr double kStraight = 1e-9;
 /// So often a range is halved until its ends are neighbours.
 constexpr int kHalvings = 60;
-
-/// What turns where both sides are equal, and the relations that lead to the features it speaks of.
-struct Turn {
-  ExprId left = kNoExpr;
-  ExprId right = kNoExpr;
-  std::array<int, kMostLevels> relations{};
-};
 
 /// Goes through all that the rules ask and keeps what depends on the param.
 class TurnFinder {
@@ -181,8 +175,8 @@ std::vector<AskedFeatures> features_of(const Pack& pack, const Turn& turn,
 /// How far the sides of one turn are apart at values of the param.
 class Differences {
  public:
-  Differences(WhatIf& what_if, std::size_t param)
-      : pack_(what_if.pack()), param_(param), evaluator_(pack_, what_if.context()) {}
+  Differences(Pack& pack, const EvaluationContext& context, std::size_t param)
+      : pack_(pack), param_(param), evaluator_(pack_, context) {}
 
   void add_to(TurningPoints& points, const Turn& turn, std::span<const AskedFeatures> asked) {
     const Param& param = pack_.params[param_];
@@ -265,13 +259,31 @@ void tidy(std::vector<double>& values, std::pair<double, double> range) {
 
 }  // namespace
 
-TurningPoints turning_points(WhatIf& what_if, std::size_t param, int row) {
+ParamTurns find_turns(Pack& pack, std::size_t param) {
+  TurnFinder finder(pack, param);
+  ParamTurns found;
+  found.turns = finder.run();
+  found.is_gradual = finder.is_gradual();
+  return found;
+}
+
+std::vector<double> turning_values(Pack& pack, const EvaluationContext& context, std::size_t param,
+                                   const ParamTurns& turns) {
   TurningPoints points;
-  TurnFinder finder(what_if.pack(), param);
-  const std::vector<Turn> turns = finder.run();
-  points.is_gradual = finder.is_gradual();
-  Differences differences(what_if, param);
-  for (const Turn& turn : turns)
+  Differences differences(pack, context, param);
+  for (const Turn& turn : turns.turns)
+    differences.add_to(points, turn, features_of(pack, turn, context, -1));
+  points.own.insert(points.own.end(), points.others.begin(), points.others.end());
+  tidy(points.own, *pack.params[param].range);
+  return std::move(points.own);
+}
+
+TurningPoints turning_points(WhatIf& what_if, std::size_t param, int row) {
+  const ParamTurns found = find_turns(what_if.pack(), param);
+  TurningPoints points;
+  points.is_gradual = found.is_gradual;
+  Differences differences(what_if.pack(), what_if.context(), param);
+  for (const Turn& turn : found.turns)
     differences.add_to(points, turn, features_of(what_if.pack(), turn, what_if.context(), row));
   tidy(points.own, *what_if.pack().params[param].range);
   tidy(points.others, *what_if.pack().params[param].range);

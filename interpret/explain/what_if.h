@@ -39,20 +39,6 @@ class WhatIf {
   bool is_laid_out_anew_ = false;
 };
 
-/// The values of one param, within its range, at which something turns that a rule or a relation
-/// asks: a condition, or the beginning or end of a ramp.
-struct TurningPoints {
-  /// Of the feature itself, and of the others, which may change its label by theirs. Ascending,
-  /// each once.
-  std::vector<double> own, others;
-  /// Scores change with it between these values, too.
-  bool is_gradual = false;
-};
-
-/// The param must have a range. Numbers that are taken from other features' labels (an aggregate of
-/// those that are a window) are taken as the labels are with the value that the pack says.
-TurningPoints turning_points(WhatIf& what_if, std::size_t param, int row);
-
 /// Explainer::find_flip.
 FlipSearch find_flip(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph,
                      FeatureId feature);
