@@ -97,6 +97,7 @@ int run(int argc, char** argv) {
   add_repair(app, action);
   add_explain(app, action);
   add_interpret(app, action);
+  add_learn(app, action);
   add_diff(app, action);
   add_score(app, action);
   add_validate(app, action);

@@ -24,6 +24,7 @@ void add_generalise(CLI::App& app, Action& action);
 void add_repair(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_interpret(CLI::App& app, Action& action);
+void add_learn(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_score(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);

@@ -1,0 +1,257 @@
+#include "cli/batch/arena.h"
+#include "cli/batch/input_files.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/options.h"
+#include "cli/output/named_files.h"
+#include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
+#include "cli/terminal/print_out.h"
+#include "kernel/base/counted.h"
+#include "kernel/base/printable.h"
+#include "kernel/io/files/output_file.h"
+#include "oriel/learn.h"
+#include "oriel/rules.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <oneapi/tbb/parallel_for.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LearnArguments {
+  std::vector<std::string> records;
+  std::vector<std::string> truth;
+  std::string rules = "residential";
+  std::string out;
+  std::string objective = "macro_f1";
+  std::string costs;
+  std::vector<std::string> params;
+  std::size_t folds = 5;
+  bool leaves_one_out = false;
+  double penalty = LearnOptions{}.penalty;
+  int restarts = LearnOptions{}.restarts;
+  std::uint64_t seed = 1;
+  std::size_t questions = 0;
+  int jobs = 1;
+  bool is_json = false;
+  bool is_verbose = false;
+};
+
+/// The truths of folders that are named, by name, and files as they are.
+std::vector<std::string> named_truths(const std::vector<std::string>& named) {
+  std::vector<std::string> files;
+  for (const std::string& path : named) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(path))
+      if (const std::string file = entry.path().string();
+          file.ends_with(".truth.json") || file.ends_with(".truth.jsonl"))
+        found.push_back(file);
+    std::ranges::sort(found);
+    if (found.empty()) {
+      Issue issue;
+      issue.code = Code::E101;
+      issue.sentence = "the folder has no *.truth.json or *.truth.jsonl";
+      issue.place.file = path;
+      throw InputError(std::move(issue));
+    }
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    Issue issue;
+    issue.code = Code::E101;
+    issue.sentence = "cannot be opened";
+    issue.place.file = path;
+    throw InputError(std::move(issue));
+  }
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Nothing if its file of costs is wrong, which is reported.
+std::optional<Objective> objective_of(const LearnArguments& arguments, Report& report) {
+  constexpr std::string_view kF1 = "f1:";
+  if (arguments.objective.starts_with(kF1))
+    return Objective::f1_of(arguments.objective.substr(kF1.size()));
+  if (arguments.objective != "cost") return Objective::macro_f1();
+  auto costs = read_costs(text_of_file(arguments.costs), arguments.costs);
+  report.add(costs.issues);
+  if (!costs.value) return std::nullopt;
+  return Objective::least_cost(std::move(*costs.value));
+}
+
+/// A pack extends one that is built in, or one in its own folder.
+void check_folder(const LearnArguments& arguments) {
+  if (arguments.out.empty() || embedded_pack(arguments.rules)) return;
+  std::error_code problem;
+  const auto folder_of = [&](const std::string& path) {
+    const fs::path parent = fs::path(path).parent_path();
+    return fs::weakly_canonical(parent.empty() ? fs::path(".") : parent, problem);
+  };
+  if (folder_of(arguments.out) != folder_of(arguments.rules))
+    refuse_usage("-o", Code::R246,
+                 fmt::format("a pack extends one in its own folder: write into that of {}",
+                             printable(arguments.rules)));
+}
+
+/// The name of the learnt pack: of its file, as far as a pack can be called so.
+std::string name_of_pack(const std::string& path) {
+  std::string name;
+  for (const char c : fs::path(path).stem().string()) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    name += is_letter ? c : '_';
+  }
+  return name.empty() || name.front() < 'a' ? "learnt" : name;
+}
+
+std::string extended_name(const std::string& rules) {
+  return embedded_pack(rules) ? rules : fs::path(rules).filename().string();
+}
+
+ForEachShare in_threads(int jobs) {
+  if (jobs <= 1) return for_each_in_turn;
+  return [jobs](std::size_t count, const std::function<void(std::size_t)>& work) {
+    in_arena(jobs, [&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  };
+}
+
+ExitCode learn(const LearnArguments& arguments, Report& report) {
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  const auto objective = objective_of(arguments, report);
+  if (!objective) return ExitCode::input;
+  const auto samples = read_samples(arguments.records, arguments.truth);
+  report.add(samples.issues);
+  if (!samples.value) return ExitCode::input;
+  LearnOptions options;
+  options.objective = *objective;
+  options.penalty = arguments.penalty;
+  options.restarts = arguments.restarts;
+  options.seed = arguments.seed;
+  options.params = arguments.params;
+  options.step = [](std::size_t done, std::size_t all) {
+    progress_log().info("learning: step {} of {}", done + 1, all);
+  };
+  const auto parts = folds_of(samples.value->size(), arguments.leaves_one_out ? 0 : arguments.folds,
+                              arguments.seed);
+  const auto learnt =
+      learn_params(*rules, *samples.value, parts, options, in_threads(arguments.jobs));
+  report.add(learnt.issues);
+  if (!learnt.value) return ExitCode::input;
+  if (!arguments.out.empty())
+    write_file(arguments.out, learnt_pack(*learnt.value, *rules, name_of_pack(arguments.out),
+                                          extended_name(arguments.rules)));
+  std::string text =
+      arguments.is_json ? to_json(*learnt.value, *rules) + "\n" : to_text(*learnt.value, *rules);
+  if (arguments.questions > 0 && !arguments.is_json)
+    text += "answers that would help most:\n" +
+            to_text(open_questions(*rules, *samples.value, *learnt.value, arguments.questions));
+  print_out(text, arguments.is_json);
+  return ExitCode::clean;
+}
+
+ExitCode work(LearnArguments& arguments) {
+  if (arguments.objective == "cost" && arguments.costs.empty())
+    throw CLI::ValidationError("--objective", "cost needs --costs FILE");
+  Report report(arguments.is_verbose);
+  read_once(arguments.records, report);
+  arguments.truth = named_truths(arguments.truth);
+  read_once(arguments.truth, report);
+  NamedFiles names;
+  for (const std::string& records : arguments.records) names.add_input("records", records);
+  for (const std::string& truth : arguments.truth) names.add_input("--truth", truth);
+  names.add_input("--rules", arguments.rules);
+  if (!arguments.costs.empty()) names.add_input("--costs", arguments.costs);
+  names.add_output("-o", arguments.out);
+  names.check();
+  check_folder(arguments);
+  return learn(arguments, report);
+}
+
+void add_search_arguments(CLI::App& command, LearnArguments& arguments) {
+  command
+      .add_option("--objective", arguments.objective,
+                  "What is made as large as possible: macro_f1, f1:CLASS, or cost for the least "
+                  "cost of errors")
+      ->check([](const std::string& text) {
+        const bool is_f1 = text.starts_with("f1:") && text.size() > 3;
+        return text == "macro_f1" || text == "cost" || is_f1
+                   ? std::string()
+                   : "'" + text + "' is none of macro_f1, f1:CLASS, cost";
+      })
+      ->capture_default_str();
+  command.add_option("--costs", arguments.costs,
+                     "What errors cost: lines of truth,predicted,cost; - for nothing");
+  command.add_option("--params", arguments.params, "The params that may be changed; default: all")
+      ->delimiter(',');
+  command
+      .add_option("--folds", arguments.folds, "Parts of the buildings that are held out in turn")
+      ->check(count_in(2, 1000))
+      ->capture_default_str();
+  command.add_flag("--leave-one-out", arguments.leaves_one_out, "Hold out each building by itself");
+  command.add_option("--penalty", arguments.penalty, "What each changed param must gain")
+      ->check(number_in(0, 1))
+      ->capture_default_str();
+  command
+      .add_option("--restarts", arguments.restarts, "How often the search begins again elsewhere")
+      ->check(count_in(0, 100))
+      ->capture_default_str();
+  command.add_option("--seed", arguments.seed, "Of folds, restarts and intervals")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_learn(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<LearnArguments>();
+  CLI::App* command = app.add_subcommand(
+      "learn", "Find values of a pack's params with which it labels samples best");
+  command
+      ->add_option("records", arguments->records,
+                   "Records of features, as segment or label --features writes them")
+      ->required();
+  command
+      ->add_option("--truth", arguments->truth,
+                   "*.truth.json and *.truth.jsonl files, or folders of them")
+      ->required();
+  add_rules_argument(*command, arguments->rules);
+  command->add_option("-o,--output", arguments->out,
+                      "Write a pack that extends the other and changes what was learnt");
+  add_search_arguments(*command, *arguments);
+  command
+      ->add_option("--ask", arguments->questions,
+                   "List so many features whose right label would help most")
+      ->check(count_in(1, 1'000'000));
+  command->add_flag("--json", arguments->is_json, "Print JSON");
+  add_jobs_argument(*command, arguments->jobs);
+  command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
+  command->footer(
+      "Nothing is changed that does not pay on held-out buildings.\nExample:\n  oriel segment "
+      "data/*.stripped.city.json --features parts.jsonl\n  oriel learn parts.jsonl --truth data/ "
+      "--rules residential -o learnt.yaml");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli

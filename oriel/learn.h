@@ -1,0 +1,25 @@
+#pragma once
+
+/// Rules that learn from samples (docs/learn.md): read_samples, learn_params, learnt_pack,
+/// open_questions.
+#include "interpret/experiment/learn/ask.h"           // IWYU pragma: export
+#include "interpret/experiment/learn/learn_params.h"  // IWYU pragma: export
+#include "interpret/experiment/learn/learnt_pack.h"   // IWYU pragma: export
+#include "interpret/experiment/sample.h"              // IWYU pragma: export
+#include "kernel/base/issue.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// Samples of stored features, in the order of their buildings' names, with the truth of the same
+/// buildings. `records` are files of feature records, `truths` are `*.truth.json` and
+/// `*.truth.jsonl` files. Issues are those of reading them, and R284: an error if no building has
+/// both features and truth, or a building occurs twice; else a warning about buildings that have
+/// one without the other, which are left out. Throws InputError for a file that cannot be read.
+Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
+                                          std::span<const std::string> truths);
+
+}  // namespace oriel
