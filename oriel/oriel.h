@@ -6,6 +6,7 @@
 
 #include "oriel/corrections.h"  // IWYU pragma: export
 #include "oriel/count.h"        // IWYU pragma: export
+#include "oriel/experiment.h"   // IWYU pragma: export
 #include "oriel/explain.h"      // IWYU pragma: export
 #include "oriel/generalise.h"   // IWYU pragma: export
 #include "oriel/interpret.h"    // IWYU pragma: export

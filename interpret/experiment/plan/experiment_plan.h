@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
+#include "interpret/params/with_params.h"
 #include "kernel/base/issue.h"
 
 #include <cstdint>
@@ -40,7 +41,8 @@ struct SplitPlan {
 /// Buildings and what is known to be there.
 struct SetPlan {
   std::string name;
-  /// One of these is empty.
+  /// One of these may be empty. Where there are both, stored features are taken as those of the
+  /// models.
   std::vector<FilePattern> models, features;
   std::vector<FilePattern> truth;
   /// What the models call their polygons is not looked at, as if they were stripped.
@@ -65,19 +67,13 @@ struct SegmentationPlan {
   friend bool operator==(const SegmentationPlan&, const SegmentationPlan&) = default;
 };
 
-/// A param of the pack and its value, in metres, degrees or 1.
-struct ParamSetting {
-  std::string param;
-  double value = 0;
-};
-
 /// A pack, and params of it that have other values.
 struct RulesPlan {
   /// As the file names it.
   std::string pack;
   /// Missing only in a plan with errors.
   std::optional<RuleBase> base;
-  std::vector<ParamSetting> params;
+  std::vector<ParamValue> params;
   PlanSpot spot;
 };
 
@@ -121,7 +117,7 @@ struct DisturbancePlan {
   Kind kind = Kind::noise;
   /// "noise = 0.02 m", "plane_offset = 0.01 m", "triangulation".
   std::string name;
-  /// "noise", "plane_offset" …, its value in `unit`: m, deg, a share.
+  /// "noise", "plane_offset" …, its value in `unit`: m, deg, %.
   std::string variable;
   double value = 0;
   std::string unit;
@@ -183,5 +179,8 @@ Checked<ExperimentPlan> load_experiment_file(const std::string& path);
 
 /// A value as it stands in the name of a run: 0.6 m is "0.6 m"; read again it is the same number.
 std::string value_text(double value, const std::string& unit);
+
+/// The number with ten digits: 7 cm, in metres 0.07 and some last bits, becomes 0.07.
+double rounded_for_name(double value);
 
 }  // namespace oriel

@@ -96,6 +96,13 @@ std::string value_text(double value, const std::string& unit) {
   return fmt::format("{}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
+double rounded_for_name(double value) {
+  const std::string text = fmt::format("{:.10g}", value);
+  double read = value;
+  std::from_chars(text.data(), text.data() + text.size(), read);
+  return read;
+}
+
 Checked<ExperimentPlan> load_experiment(std::string text, const std::string& file) {
   ExperimentPlan plan;
   plan.file = file;

@@ -63,8 +63,8 @@ bool read_segmentation_key(const std::string& key, const YamlNode& value, Segmen
 /// reported as one (R200 …) at `node`; null if it cannot be used.
 std::optional<RuleBase> read_plan_pack(const YamlNode& node, PlanReader& reader);
 /// `params:` of a pack: a map of names and values, which lie in their ranges.
-std::vector<ParamSetting> read_plan_params(const YamlNode& node, const RuleBase& base,
-                                           PlanReader& reader);
+std::vector<ParamValue> read_plan_params(const YamlNode& node, const RuleBase& base,
+                                         PlanReader& reader);
 /// The param that `name` names; or null and R206.
 const Param* find_plan_param(const YamlNode& name, const RuleBase& base, PlanReader& reader);
 /// An error R281 if the param has a range and `value` is beyond it.

@@ -132,9 +132,9 @@ void expect_in_range(const Param& param, double value, SourceSpan where, Finding
                              value_text(param.range->second, unit), value_text(value, unit)));
 }
 
-std::vector<ParamSetting> read_plan_params(const YamlNode& node, const RuleBase& base,
-                                           PlanReader& reader) {
-  std::vector<ParamSetting> settings;
+std::vector<ParamValue> read_plan_params(const YamlNode& node, const RuleBase& base,
+                                         PlanReader& reader) {
+  std::vector<ParamValue> settings;
   if (!expect_map(node, "'params'", reader.findings)) return settings;
   QuantityReader quantities(&base, reader.findings);
   for (const YamlEntry& entry : node.entries) {

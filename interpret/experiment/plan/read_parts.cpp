@@ -31,7 +31,7 @@ void read_compared(const YamlEntry& entry, PlanReader& reader) {
     compared.rules = {pack->text, read_plan_pack(*pack, reader), {}, reader.spot(pack->span)};
   const YamlNode* params = section.find("params");
   if (params != nullptr && compared.rules.base)
-    for (ParamSetting& setting : read_plan_params(*params, *compared.rules.base, reader))
+    for (ParamValue& setting : read_plan_params(*params, *compared.rules.base, reader))
       compared.rules.params.push_back(std::move(setting));
   read_segmentation(entry.value, compared.options, reader);
   if (entry.value.entries.empty())
@@ -79,21 +79,26 @@ class DisturbanceReader {
   void read_amounts(const YamlNode& node, DisturbancePlan::Kind kind, Dimension dimension,
                     double most) {
     for (const YamlNode* text : texts_of(node, "'" + node.of_key + "'", reader_.findings)) {
-      const auto amount = quantities_.value(*text, dimension);
+      auto amount = quantities_.value(*text, dimension);
       if (!amount) continue;
+      amount = rounded_for_name(*amount);
       if (!(*amount > 0 && *amount <= most)) {
         reader_.findings.error(Code::R212, text->span,
                                fmt::format("'{}' is above 0 and at most {}", node.of_key,
                                            value_text(most, unit_of(dimension))));
         continue;
       }
-      const std::string unit = unit_of(dimension);
-      plan_.disturbances.push_back({kind,
-                                    fmt::format("{} = {}", node.of_key, value_text(*amount, unit)),
-                                    node.of_key,
-                                    *amount,
-                                    unit,
-                                    {}});
+      // Shares are shown in per cent.
+      const bool is_share = kind == DisturbancePlan::Kind::missing_faces;
+      const std::string unit = is_share ? "%" : unit_of(dimension);
+      if (is_share) amount = rounded_for_name(*amount * 100);
+      add({kind,
+           fmt::format("{} = {}", node.of_key, value_text(*amount, unit)),
+           node.of_key,
+           *amount,
+           unit,
+           {}},
+          *text);
     }
   }
 
@@ -117,8 +122,17 @@ class DisturbanceReader {
     disturbance.unit = key == "coplanar" ? "deg" : key == "value_rel" ? "" : "m";
     for (const auto& value :
          {options.coplanar_deg, options.plane_offset_m, options.weld_m, options.value_rel})
-      if (value) disturbance.value = *value;
+      if (value) disturbance.value = rounded_for_name(*value);
     disturbance.name = fmt::format("{} = {}", key, value_text(disturbance.value, disturbance.unit));
+    add(std::move(disturbance), text);
+  }
+
+  /// Runs have names of their own.
+  void add(DisturbancePlan disturbance, const YamlNode& text) {
+    const auto& all = plan_.disturbances;
+    if (std::ranges::find(all, disturbance.name, &DisturbancePlan::name) != all.end())
+      reader_.findings.error(Code::R240, text.span,
+                             fmt::format("there is a run '{}' already", disturbance.name));
     plan_.disturbances.push_back(std::move(disturbance));
   }
 
@@ -130,7 +144,8 @@ class DisturbanceReader {
 std::vector<int> read_building_counts(const YamlNode& node, PlanReader& reader) {
   std::vector<int> counts;
   for (const YamlNode* text : texts_of(node, "'buildings'", reader.findings))
-    if (const auto count = read_count(*text, "a number of buildings", 1, reader.findings))
+    if (const auto count =
+            read_count(*text, "a number of buildings to learn from", 2, reader.findings))
       counts.push_back(*count);
   std::ranges::sort(counts);
   counts.erase(std::unique(counts.begin(), counts.end()), counts.end());

@@ -65,9 +65,10 @@ void read_set(const YamlEntry& entry, PlanReader& reader) {
                       {"models", "features", "truth", "semantics", "split"}, reader.findings);
   if (!section.is_map()) return;
   const YamlNode *models = section.find("models"), *features = section.find("features");
-  if ((models == nullptr) == (features == nullptr))
-    reader.findings.error(Code::R210, entry.key.span,
-                          "a set has either 'models', which are segmented, or stored 'features'");
+  if (models == nullptr && features == nullptr)
+    reader.findings.error(
+        Code::R210, entry.key.span,
+        "a set needs 'models', which are segmented, or 'features', which are stored (or both)");
   set.models = read_patterns(models, "'models'", reader);
   set.features = read_patterns(features, "'features'", reader);
   set.truth = read_patterns(section.require("truth"), "'truth'", reader);

@@ -3,7 +3,6 @@
 #include "interpret/yaml/section.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,12 +13,10 @@ namespace {
 
 constexpr int kUsualValues = 5;
 
-/// As it is written in the name of a run, so that the run can be repeated by hand.
-double as_written(double value) {
-  const std::string text = fmt::format("{:.10g}", value);
-  double read = 0;
-  std::from_chars(text.data(), text.data() + text.size(), read);
-  return read;
+/// With so few digits that it can be read in the name of a run, unless that is beyond its range.
+double as_named(double value, double low, double high) {
+  const double rounded = rounded_for_name(value);
+  return rounded >= low && rounded <= high ? rounded : value;
 }
 
 /// `count` values from `low` to `high`, evenly spaced, both among them.
@@ -27,7 +24,7 @@ std::vector<double> even_values(double low, double high, int count) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) {
     const double share = count == 1 ? 0.5 : double(i) / (count - 1);
-    values.push_back(as_written(low + (high - low) * share));
+    values.push_back(as_named(low + (high - low) * share, low, high));
   }
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
@@ -107,10 +104,16 @@ class SweepReader {
     }
     std::vector<double> values;
     for (const YamlNode* text : texts_of(node, "'" + param.name + "'", reader_.findings)) {
-      const auto value = quantities_.value(*text, param.dimension);
+      auto value = quantities_.value(*text, param.dimension);
       if (!value) continue;
       expect_in_range(param, *value, text->span, reader_.findings);
-      values.push_back(*value);
+      value = param.range ? as_named(*value, param.range->first, param.range->second)
+                          : rounded_for_name(*value);
+      if (std::ranges::find(values, *value) != values.end())
+        reader_.findings.error(Code::R240, text->span,
+                               fmt::format("'{}' takes this value already", param.name));
+      else
+        values.push_back(*value);
     }
     if (values.empty()) return;
     if (sweep_.design == SweepPlan::Design::random)

@@ -36,7 +36,7 @@ void collect(const std::string& text, const std::regex& pattern,
 std::map<std::string, std::string> titles_in_pages() {
   std::map<std::string, std::string> titles;
   const std::regex section("\n### ([EGR][0-9]{3}) ([^\n]+?)(?: \\((?:warning|note)\\))?\n");
-  for (const char* page : {"errors.md", "rules.md"})
+  for (const char* page : {"errors.md", "rules.md", "experiments.md"})
     collect(text_of(kRoot / "docs" / page), section, titles);
   return titles;
 }

@@ -1,0 +1,230 @@
+#include "oriel/experiment.h"
+
+#include "interpret/params/with_params.h"
+#include "oriel/experiments/file_patterns.h"
+#include "oriel/experiments/part_runner.h"
+#include "oriel/experiments/sample_set.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+void add_issues(std::vector<Issue> more, std::vector<Issue>& issues) {
+  issues.insert(issues.end(), std::make_move_iterator(more.begin()),
+                std::make_move_iterator(more.end()));
+}
+
+/// Stored features are what they are: another way of segmenting needs the models.
+void report_features_without_models(const ExperimentPlan& plan, std::vector<Issue>& issues) {
+  const auto refuse = [&](const PlanSpot& spot, const SetPlan& set) {
+    issues.push_back(spot.issue(
+        Severity::error, Code::R288,
+        fmt::format("this segments buildings again, and the set '{}' has stored features without "
+                    "their models: add 'models'",
+                    set.name)));
+  };
+  for (const SetPlan& set : plan.sets) {
+    if (!set.features.empty() && !plan.options.is_empty())
+      issues.push_back(set.features.front().spot.issue(
+          Severity::error, Code::R288,
+          fmt::format("the 'options' of the experiment cannot change the stored features of the "
+                      "set '{}': take out one of both",
+                      set.name)));
+    if (!set.models.empty()) continue;
+    for (const ComparedPlan& compared : plan.compare)
+      if (!compared.options.is_empty()) refuse(compared.spot, set);
+    if (plan.stability) refuse(plan.stability->spot, set);
+  }
+}
+
+/// An experiment at work.
+class ExperimentAtWork {
+ public:
+  ExperimentAtWork(const ExperimentPlan& plan, const ExperimentOptions& options)
+      : plan_(plan),
+        options_(options),
+        features_(options.cache.empty() ? "" : options.cache + "/features", options.program),
+        measured_(options.cache.empty() ? "" : options.cache + "/measured") {}
+
+  Checked<ExperimentResults> run() {
+    Checked<ExperimentResults> results;
+    report_features_without_models(plan_, results.issues);
+    const auto rules = with_params(*plan_.rules.base, plan_.rules.params);
+    for (const Issue& issue : rules.issues)
+      results.issues.push_back(plan_.rules.spot.issue(issue.severity, issue.code, issue.sentence));
+    if (!has_errors(results.issues)) read_sets(results.issues);
+    if (has_errors(results.issues)) return results;
+    results.value.emplace(header());
+    for (const ExperimentPart part : parts_of(plan_))
+      for (const SampleSet& set : sets_) add_part(part, set, *rules.value, results);
+    return results;
+  }
+
+ private:
+  void read_sets(std::vector<Issue>& issues) {
+    for (const SetPlan& plan : plan_.sets) {
+      SampleSet& set = sets_.emplace_back();
+      set.plan = &plan;
+      std::vector<Issue> found;
+      set.files = find_set_files(plan, plan_, found);
+      if (!has_errors(found)) read_set(set, found);
+      add_issues(std::move(found), issues);
+    }
+  }
+
+  void read_set(SampleSet& set, std::vector<Issue>& issues) {
+    std::vector<std::string> ids;
+    if (!set.files.features.empty()) {
+      ids = ids_of_set(set.files, plan_.options, issues);
+      if (!has_errors(issues))
+        set.buildings = measured_buildings(*set.plan, plan_, set.files, ids, issues);
+      if (!has_errors(issues)) set.samples = stored_samples(set.files, set.buildings, issues);
+      return;
+    }
+    auto features = features_of(
+        set, {pipeline_options(plan_.options, set.plan->ignores_semantics), std::nullopt});
+    for (KeptFeatures& file : features) {
+      add_issues(std::move(file.issues), issues);
+      for (const KeptBuilding& building : file.buildings)
+        ids.push_back(building.features.table.building());
+    }
+    if (!has_errors(issues))
+      set.buildings = measured_buildings(*set.plan, plan_, set.files, ids, issues);
+    if (!has_errors(issues))
+      set.samples = samples_of(std::move(features), set.files, set.buildings);
+  }
+
+  std::vector<KeptFeatures> features_of(const SampleSet& set, const FeatureRecipe& recipe) {
+    return features_.features_of(
+        set.files.models, recipe, options_.for_each, [&](std::size_t done) {
+          step("features of " + set.plan->name, done, set.files.models.size());
+        });
+  }
+
+  void add_part(ExperimentPart part, const SampleSet& set, const RuleBase& rules,
+                Checked<ExperimentResults>& results) {
+    const std::string key = key_of(part, set, rules);
+    auto measured = options_.resumes ? measured_.find(key) : std::nullopt;
+    if (!measured) {
+      measured = run_part(part, set, context_of(part, set, rules));
+      measured_.keep(key, *measured);
+    }
+    for (const std::string& sentence : measured->left_out)
+      results.issues.push_back(plan_.rules.spot.issue(Severity::warning, Code::R281, sentence));
+    auto& value = *results.value;
+    value.rows.insert(value.rows.end(), measured->rows.begin(), measured->rows.end());
+    value.tables.insert(value.tables.end(), measured->tables.begin(), measured->tables.end());
+  }
+
+  [[nodiscard]] const PlanSpot& spot_of(ExperimentPart part) const {
+    if (part == ExperimentPart::sweep) return plan_.sweep->spot;
+    if (part == ExperimentPart::compare) return plan_.compare.front().spot;
+    return plan_.rules.spot;
+  }
+
+  PartContext context_of(ExperimentPart part, const SampleSet& set, const RuleBase& rules) {
+    return {plan_, rules, options_.for_each,
+            [this](const SampleSet& of, const FeatureRecipe& recipe) {
+              return samples_of(features_of(of, recipe), of.files, of.buildings);
+            },
+            [this, part, &set](std::size_t done, std::size_t all) {
+              step(fmt::format("{} on {}", to_string(part), set.plan->name), done, all);
+            }};
+  }
+
+  /// All that a part on a set depends on.
+  [[nodiscard]] std::string key_of(ExperimentPart part, const SampleSet& set,
+                                   const RuleBase& rules) const {
+    std::string key =
+        fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", options_.program, plan_.sha256, to_string(part),
+                    set.plan->name, rules.sha256(), set.files.text());
+    for (const ComparedPlan& compared : plan_.compare) key += compared.rules.base->sha256() + "\n";
+    return key;
+  }
+
+  [[nodiscard]] ExperimentResults header() const {
+    ExperimentResults results;
+    results.name = plan_.name;
+    results.about = plan_.about;
+    results.program = options_.program;
+    results.inputs.push_back(
+        {"experiment", std::filesystem::path(plan_.file).filename().string(), plan_.sha256});
+    for (const SampleSet& set : sets_) {
+      add_inputs("models", set.files.models, results);
+      add_inputs("features", set.files.features, results);
+      add_inputs("truth", set.files.truth, results);
+    }
+    results.inputs.push_back({"pack", plan_.rules.pack, plan_.rules.base->sha256()});
+    for (const ComparedPlan& compared : plan_.compare)
+      if (std::ranges::find(results.inputs, compared.rules.pack, &ExperimentInput::path) ==
+          results.inputs.end())
+        results.inputs.push_back({"pack", compared.rules.pack, compared.rules.base->sha256()});
+    results.options = {{"seed", fmt::format("{}", plan_.seed)},
+                       {"bootstrap", fmt::format("{}", plan_.bootstrap)}};
+    for (const SetPlan& set : plan_.sets)
+      if (!set.models.empty())
+        results.options.emplace_back(
+            "segmentation of " + set.name,
+            configuration(pipeline_options(plan_.options, set.ignores_semantics)));
+    for (const ParamValue& param : plan_.rules.params)
+      results.options.emplace_back(param.name, fmt::format("{}", param.value));
+    return results;
+  }
+
+  void add_inputs(const std::string& kind, const std::vector<HashedFile>& files,
+                  ExperimentResults& results) const {
+    for (const HashedFile& file : files)
+      results.inputs.push_back({kind, path_in_plan(file.path, plan_.file), file.sha256});
+  }
+
+  void step(const std::string& what, std::size_t done, std::size_t all) const {
+    if (options_.observer) options_.observer({what, done, all});
+  }
+
+  const ExperimentPlan& plan_;
+  const ExperimentOptions& options_;
+  FeatureStore features_;
+  MeasuredStore measured_;
+  std::vector<SampleSet> sets_;
+};
+
+}  // namespace
+
+std::vector<Issue> check_experiment(const ExperimentPlan& plan) {
+  std::vector<Issue> issues;
+  report_features_without_models(plan, issues);
+  for (const SetPlan& set : plan.sets) {
+    std::vector<Issue> found;
+    const SetFiles files = find_set_files(set, plan, found);
+    if (!has_errors(found)) {
+      const auto ids = ids_of_set(files, plan.options, found);
+      if (!has_errors(found)) measured_buildings(set, plan, files, ids, found);
+    }
+    add_issues(std::move(found), issues);
+  }
+  return issues;
+}
+
+Checked<ExperimentResults> run_experiment(const ExperimentPlan& plan,
+                                          const ExperimentOptions& options) {
+  return ExperimentAtWork(plan, options).run();
+}
+
+std::vector<std::string> files_of_experiment(const ExperimentPlan& plan) {
+  std::vector<Issue> ignored;
+  std::vector<std::string> files{plan.file};
+  for (const SetPlan& set : plan.sets)
+    for (const auto* patterns : {&set.models, &set.features, &set.truth})
+      std::ranges::move(files_of(*patterns, plan.file, ignored), std::back_inserter(files));
+  return files;
+}
+
+}  // namespace oriel

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "interpret/experiment/plan/experiment_plan.h"
+#include "interpret/experiment/results.h"
+#include "oriel/experiment.h"
+#include "oriel/experiments/measured_store.h"
+#include "oriel/experiments/sample_set.h"
+
+#include <functional>
+#include <vector>
+
+namespace oriel {
+
+/// How the baseline of every part is called.
+inline constexpr const char* kOwnName = "as it is";
+
+/// What the parts of an experiment need: its rules with their params, and how to get samples.
+struct PartContext {
+  const ExperimentPlan& plan;
+  /// With the params of the plan.
+  const RuleBase& rules;
+  const ForEachShare& for_each;
+  /// Samples of the set's buildings, made by another recipe.
+  std::function<std::vector<Sample>(const SampleSet&, const FeatureRecipe&)> samples_by;
+  /// Runs that are done, of all of the part on the set.
+  std::function<void(std::size_t done, std::size_t all)> step;
+};
+
+/// What a part of the experiment comes to on a set.
+MeasuredPart run_part(ExperimentPart part, const SampleSet& set, const PartContext& context);
+
+/// The parts that a plan has, in their order.
+std::vector<ExperimentPart> parts_of(const ExperimentPlan& plan);
+
+}  // namespace oriel

@@ -1,0 +1,345 @@
+#include "oriel/experiments/sample_set.h"
+
+#include "interpret/language/suggest.h"
+#include "kernel/base/counted.h"
+#include "kernel/base/random.h"
+#include "kernel/io/reader.h"
+#include "kernel/io/records/feature_records.h"
+#include "oriel/experiments/file_patterns.h"
+#include "oriel/score.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+namespace fs = std::filesystem;
+using IdsOfSet = std::set<std::string>;
+
+std::vector<HashedFile> hashed(const std::vector<FilePattern>& patterns, const ExperimentPlan& plan,
+                               std::vector<Issue>& issues) {
+  std::vector<HashedFile> files;
+  for (const std::string& path : files_of(patterns, plan.file, issues))
+    files.push_back({path, hash_of_file(path)});
+  return files;
+}
+
+void read_set_truth(const SetPlan& set, SetFiles& files, std::vector<Issue>& issues) {
+  for (const HashedFile& file : files.truth) {
+    const auto truths = read_truths(file.path);
+    issues.insert(issues.end(), truths.issues.begin(), truths.issues.end());
+    if (!truths.value) continue;
+    for (const GroundTruth& truth : *truths.value) {
+      LabelsAndTruth all;
+      add(truth, all);
+      if (!files.objects.emplace(truth.building, std::move(all.truth)).second)
+        issues.push_back(set.spot.issue(
+            Severity::error, Code::R289,
+            fmt::format("the building '{}' has two truths in the set '{}'; the second is in {}",
+                        truth.building, set.name, path_in_plan(file.path, ""))));
+    }
+  }
+}
+
+/// Records have no date of their own.
+void report_old_features(const SetPlan& set, const SetFiles& files, std::vector<Issue>& issues) {
+  for (const HashedFile& features : files.features)
+    for (const HashedFile& model : files.models) {
+      std::error_code problem;
+      if (fs::last_write_time(features.path, problem) >= fs::last_write_time(model.path, problem))
+        continue;
+      issues.push_back(set.features.front().spot.issue(
+          Severity::warning, Code::R286,
+          fmt::format("the features in {} are older than the model {}: make them again",
+                      features.path, model.path)));
+      break;
+    }
+}
+
+/// "'a', 'b' ...": the first of them.
+std::string first_of(const std::vector<std::string>& ids) {
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, ids.size()); ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", ids[i]);
+  return text + (ids.size() > kShown ? " ..." : "");
+}
+
+IdsOfSet ids_of(const std::map<std::string, std::vector<ExpectedObject>>& objects) {
+  IdsOfSet ids;
+  for (const auto& [id, all] : objects) ids.insert(id);
+  return ids;
+}
+
+std::vector<std::string> without(const IdsOfSet& all, const IdsOfSet& others) {
+  std::vector<std::string> rest;
+  std::ranges::set_difference(all, others, std::back_inserter(rest));
+  return rest;
+}
+
+/// The scored classes of the truth of some buildings.
+IdsOfSet classes_in(const SetFiles& files, const std::vector<std::string>& buildings,
+                    const std::vector<std::size_t>* part = nullptr) {
+  const ScoreOptions options;
+  IdsOfSet classes;
+  const auto add_building = [&](const std::string& id) {
+    for (const ExpectedObject& object : files.objects.at(id))
+      if (!is_left_out(object) && !rules::contains(options.not_scored, object.label))
+        classes.insert(object.label);
+  };
+  if (part == nullptr)
+    for (const std::string& id : buildings) add_building(id);
+  else
+    for (const std::size_t i : *part) add_building(buildings[i]);
+  return classes;
+}
+
+/// What is wrong with a split of the buildings.
+std::optional<std::string> fault_of(const SplitPlan& split,
+                                    const std::vector<std::string>& buildings) {
+  const auto count = static_cast<int>(buildings.size());
+  if (split.kind == SplitPlan::Kind::folds && count < split.folds)
+    return fmt::format("{} cannot be parted into {} folds", counted(buildings.size(), "building"),
+                       split.folds);
+  if (split.kind == SplitPlan::Kind::leave_one_out && count < 2)
+    return "nothing is left to learn from: there is one building";
+  if (split.kind != SplitPlan::Kind::held_out) return std::nullopt;
+  for (const std::string& id : split.held_out)
+    if (!rules::contains(buildings, id))
+      return fmt::format("the building '{}' that is held out is not in the set{}", id,
+                         rules::did_you_mean(id, buildings));
+  if (IdsOfSet(split.held_out.begin(), split.held_out.end()).size() >= buildings.size())
+    return "all buildings are held out: nothing is left to learn from";
+  return std::nullopt;
+}
+
+/// A learning curve cannot learn from more buildings than a part leaves.
+void check_curve(const SetPlan& set, const ExperimentPlan& plan, std::size_t buildings,
+                 const std::vector<std::vector<std::size_t>>& parts, std::vector<Issue>& issues) {
+  if (!plan.learning_curve || plan.learning_curve->buildings.empty()) return;
+  std::size_t largest = 0;
+  for (const auto& part : parts) largest = std::max(largest, part.size());
+  const auto most = static_cast<std::size_t>(plan.learning_curve->buildings.back());
+  if (buildings - largest >= most) return;
+  issues.push_back(plan.learning_curve->spot.issue(
+      Severity::error, Code::R282,
+      fmt::format("{} cannot be learnt from: the split of the set '{}' leaves {}",
+                  counted(most, "building"), set.name, buildings - largest)));
+}
+
+void check_split(const SetPlan& set, const ExperimentPlan& plan, const SetFiles& files,
+                 const std::vector<std::string>& buildings, std::vector<Issue>& issues) {
+  const bool is_learnt = plan.learn || plan.learning_curve;
+  if (set.split.kind == SplitPlan::Kind::none) {
+    if (is_learnt && !buildings.empty())
+      issues.push_back(set.spot.issue(
+          Severity::error, Code::R282,
+          fmt::format("the set '{}' has no 'split': what is learnt is measured on other buildings",
+                      set.name)));
+    return;
+  }
+  if (const auto fault = fault_of(set.split, buildings)) {
+    issues.push_back(set.split.spot.issue(Severity::error, Code::R282, *fault));
+    return;
+  }
+  const auto parts = parts_of(set.split, buildings, plan.seed);
+  check_curve(set, plan, buildings.size(), parts, issues);
+  if (set.split.kind == SplitPlan::Kind::leave_one_out) return;
+  const IdsOfSet all = classes_in(files, buildings);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (const auto lacking = without(all, classes_in(files, buildings, &parts[i]));
+        !lacking.empty())
+      issues.push_back(set.split.spot.issue(
+          Severity::warning, Code::R285,
+          fmt::format("fold {} of the set '{}' has no {}, which other folds have", i + 1, set.name,
+                      rules::join(lacking))));
+}
+
+void check_objectives(const SetPlan& set, const ExperimentPlan& plan, const SetFiles& files,
+                      const std::vector<std::string>& buildings, std::vector<Issue>& issues) {
+  const IdsOfSet all = classes_in(files, buildings);
+  for (const auto* learn : {&plan.learn, &plan.learning_curve})
+    if (*learn && (*learn)->objective != "macro_f1" && !all.contains((*learn)->objective))
+      issues.push_back((*learn)->spot.issue(
+          Severity::error, Code::R283,
+          fmt::format("the truth of the set '{}' has no {}, whose F1 is the objective; it has {}",
+                      set.name, (*learn)->objective, rules::join({all.begin(), all.end()}))));
+}
+
+/// Errors and warnings about ids that only one side has.
+void check_ids(const SetPlan& set, const SetFiles& files, const IdsOfSet& found,
+               std::vector<Issue>& issues) {
+  const IdsOfSet known = ids_of(files.objects);
+  const auto unknown = without(found, known), absent = without(known, found);
+  if (unknown.size() == found.size() || absent.size() == known.size()) {
+    issues.push_back(set.spot.issue(
+        Severity::error, Code::R284,
+        fmt::format(
+            "the truth of the set '{}' is of other buildings: it has {}, and the set has {}",
+            set.name, known.empty() ? "none" : first_of(absent),
+            found.empty() ? "none" : first_of(unknown))));
+    return;
+  }
+  if (!unknown.empty())
+    issues.push_back(set.spot.issue(
+        Severity::warning, Code::R284,
+        fmt::format("{} of the set '{}' {} left out: there is no truth of {}",
+                    counted_of(unknown.size(), found.size(), "building"), set.name,
+                    agreeing_of(unknown.size(), found.size(), "is", "are"), first_of(unknown))));
+  if (absent.empty()) return;
+  issues.push_back(set.spot.issue(
+      Severity::warning, Code::R284,
+      files.models.empty()
+          ? fmt::format("the set '{}' has no features of {}: all objects there count as missed",
+                        set.name, first_of(absent))
+          : fmt::format("the set '{}' has no building {}: its truth is left out", set.name,
+                        first_of(absent))));
+}
+
+}  // namespace
+
+std::string SetFiles::text() const {
+  std::string text;
+  for (const auto* list : {&models, &features, &truth})
+    for (const HashedFile& file : *list)
+      text += fs::path(file.path).filename().string() + " " + file.sha256 + "\n";
+  return text;
+}
+
+SetFiles find_set_files(const SetPlan& set, const ExperimentPlan& plan,
+                        std::vector<Issue>& issues) {
+  SetFiles files;
+  files.models = hashed(set.models, plan, issues);
+  files.features = hashed(set.features, plan, issues);
+  files.truth = hashed(set.truth, plan, issues);
+  read_set_truth(set, files, issues);
+  report_old_features(set, files, issues);
+  return files;
+}
+
+std::vector<std::string> ids_of_set(const SetFiles& files, const SegmentationPlan& options,
+                                    std::vector<Issue>& issues) {
+  std::vector<std::string> ids;
+  if (!files.features.empty()) {
+    for (const HashedFile& file : files.features) {
+      const auto found = visit_feature_records(file.path, [&](const FeatureRecord& record) {
+        if (ids.empty() || ids.back() != record.building) ids.push_back(record.building);
+      });
+      issues.insert(issues.end(), found.begin(), found.end());
+    }
+    return ids;
+  }
+  ReadOptions reading;
+  reading.lod = options.lod;
+  for (const HashedFile& file : files.models) {
+    Reader reader(file.path, reading);
+    while (const auto record = reader.next()) {
+      std::ranges::copy_if(record->issues, std::back_inserter(issues),
+                           [](const Issue& issue) { return issue.severity == Severity::error; });
+      if (!record->value) continue;
+      for (const Building& building : record->value->buildings) ids.push_back(building.id);
+    }
+  }
+  return ids;
+}
+
+std::vector<std::string> measured_buildings(const SetPlan& set, const ExperimentPlan& plan,
+                                            const SetFiles& files,
+                                            const std::vector<std::string>& ids,
+                                            std::vector<Issue>& issues) {
+  IdsOfSet found;
+  for (const std::string& id : ids)
+    if (!found.insert(id).second)
+      issues.push_back(set.spot.issue(
+          Severity::error, Code::R289,
+          fmt::format("the building '{}' occurs twice in the set '{}'", id, set.name)));
+  check_ids(set, files, found, issues);
+  std::vector<std::string> buildings;
+  for (const auto& [id, objects] : files.objects)
+    if (found.contains(id) || files.models.empty()) buildings.push_back(id);
+  if (has_errors(issues)) return buildings;
+  check_objectives(set, plan, files, buildings, issues);
+  check_split(set, plan, files, buildings, issues);
+  return buildings;
+}
+
+std::vector<std::vector<std::size_t>> parts_of(const SplitPlan& split,
+                                               const std::vector<std::string>& buildings,
+                                               std::uint64_t seed) {
+  std::vector<std::vector<std::size_t>> parts;
+  std::vector<std::size_t> all(buildings.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (split.kind == SplitPlan::Kind::leave_one_out)
+    for (const std::size_t i : all) parts.push_back({i});
+  if (split.kind == SplitPlan::Kind::held_out) {
+    std::erase_if(all,
+                  [&](std::size_t i) { return !rules::contains(split.held_out, buildings[i]); });
+    parts.push_back(std::move(all));
+  } else if (split.kind == SplitPlan::Kind::folds) {
+    Random(seed).shuffle(all);
+    parts.resize(static_cast<std::size_t>(split.folds));
+    for (std::size_t i = 0; i < all.size(); ++i) parts[i % parts.size()].push_back(all[i]);
+    for (auto& part : parts) std::ranges::sort(part);
+  }
+  return parts;
+}
+
+PipelineOptions pipeline_options(const SegmentationPlan& plan, bool ignores_semantics) {
+  PipelineOptions options;
+  options.ignores_semantics = ignores_semantics;
+  options.fits_noise = !plan.plane_offset_m;
+  if (plan.order) options.order = *plan.order == "paper" ? Order::paper : Order::natural;
+  options.tolerances.coplanar_deg = plan.coplanar_deg.value_or(options.tolerances.coplanar_deg);
+  options.tolerances.plane_offset_m =
+      plan.plane_offset_m.value_or(options.tolerances.plane_offset_m);
+  options.tolerances.weld_m = plan.weld_m.value_or(options.tolerances.weld_m);
+  options.tolerances.value_rel = plan.value_rel.value_or(options.tolerances.value_rel);
+  for (const Closing close : {Closing::none, Closing::planar, Closing::ground, Closing::any})
+    if (plan.close == to_string(close)) options.repair.close = close;
+  options.repair.cap_area_m2 = plan.close_area_m2.value_or(options.repair.cap_area_m2);
+  if (plan.crossings)
+    options.repair.crossings = *plan.crossings == "cut" ? Crossings::cut : Crossings::leave;
+  options.budget = plan.budget.value_or(options.budget);
+  options.lod = plan.lod.value_or("");
+  return options;
+}
+
+std::vector<Sample> samples_of(std::vector<KeptFeatures> features, const SetFiles& files,
+                               const std::vector<std::string>& buildings) {
+  std::map<std::string, KeptBuilding*> by_id;
+  for (KeptFeatures& file : features)
+    for (KeptBuilding& building : file.buildings)
+      by_id.emplace(building.features.table.building(), &building);
+  std::vector<Sample> samples;
+  samples.reserve(buildings.size());
+  for (const std::string& id : buildings) {
+    Sample sample;
+    if (const auto found = by_id.find(id); found != by_id.end()) {
+      sample.features = std::move(found->second->features);
+      sample.boxes = std::move(found->second->boxes);
+    } else {
+      sample.features.table = FeatureTable(id, 0);
+    }
+    sample.truth = files.objects.at(id);
+    samples.push_back(std::move(sample));
+  }
+  return samples;
+}
+
+std::vector<Sample> stored_samples(const SetFiles& files, const std::vector<std::string>& buildings,
+                                   std::vector<Issue>& issues) {
+  std::vector<KeptFeatures> features(files.features.size());
+  for (std::size_t i = 0; i < features.size(); ++i)
+    features[i].buildings = read_stored_features(files.features[i].path, issues);
+  return samples_of(std::move(features), files, buildings);
+}
+
+}  // namespace oriel
