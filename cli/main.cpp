@@ -105,6 +105,7 @@ int run(int argc, char** argv) {
   add_split(app, action);
   add_merge(app, action);
   add_rules(app, action);
+  add_experiment(app, action);
   add_completion(app, action);
   LogOptions logging;
   add_log_arguments(app, logging);

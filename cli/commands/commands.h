@@ -32,6 +32,7 @@ void add_view(CLI::App& app, Action& action);
 void add_split(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
 void add_rules(CLI::App& app, Action& action);
+void add_experiment(CLI::App& app, Action& action);
 void add_completion(CLI::App& app, Action& action);
 
 }  // namespace oriel::cli

@@ -70,6 +70,9 @@ std::string script_of(const Page& page, const PageBlock& block) {
            " | sqlite3 -bail -cmd '.mode csv' -cmd '.import parts.csv parts' :memory:";
   // Of the reference, which shows faults, tests/interpret/docs_test.cpp loads every pack.
   if (block.language != "yaml" || page.path == "docs/rules.md") return "";
+  // The page goes on with it.
+  if (text.starts_with("'schema: oriel-experiment/1"))
+    return "printf %s " + text + " >experiment.yaml && oriel experiment check experiment.yaml";
   const std::string written = "printf %s " + text + " >block.yaml && ";
   if (text.starts_with("'schema: oriel/1")) return written + "oriel rules check block.yaml";
   if (text.starts_with("'schema: oriel-profile/1"))

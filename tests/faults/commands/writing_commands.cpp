@@ -10,6 +10,16 @@ using Words = std::vector<std::string>;
 Files house() { return {{"in.city.json", bytes_of(sample("house"))}}; }
 Files stream() { return {{"in.city.jsonl", cube_lines({"a", "b", "c", "d"})}}; }
 
+Files experiment() {
+  Files files = house();
+  files["house.truth.json"] = bytes_of(replaced(sample("house"), ".stripped.city", ".truth"));
+  files["e.yaml"] =
+      "schema: oriel-experiment/1\nname: small\nbootstrap: 5\nsets: {house: {models: "
+      "in.city.json, truth: house.truth.json}}\nrules: residential\n"
+      "sweep: {params: [narrowest], values: 2}\n";
+  return files;
+}
+
 constexpr const char* kPack = R"(schema: oriel/1
 pack: {name: small, version: 1.0.0}
 classes: {window: {}}
@@ -77,6 +87,10 @@ std::vector<WritingCommand> writing_commands() {
         "--per-building", "@/each.csv", "--curve", "@/curve.csv", "--join", "@/joined.csv"},
        house(),
        {label}},
+      {.name = "experiment run",
+       .words = {"experiment", "run", "@/e.yaml", "-o", "@/out", "--resume"},
+       .inputs = experiment(),
+       .is_resumable = true},
       {"validate", {"validate", "@/in.city.json", "--json", "-o", "@/found.jsonl"}, house()},
       {"rules fmt", {"rules", "fmt", "-w", "@/small.yaml"}, {{"small.yaml", kPack}}},
       {"rules new", {"rules", "new", "@/thing"}, {}},

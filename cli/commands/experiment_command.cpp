@@ -1,0 +1,239 @@
+#include "cli/batch/arena.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/options.h"
+#include "cli/output/named_files.h"
+#include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
+#include "cli/terminal/print_out.h"
+#include "cli/terminal/step_progress.h"
+#include "cli/version/version_text.h"
+#include "kernel/base/counted.h"
+#include "kernel/base/printable.h"
+#include "kernel/io/files/output_file.h"
+#include "oriel/experiment.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <oneapi/tbb/parallel_for.h>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExperimentArguments {
+  std::string file;
+  std::string folder;
+  std::string cache;
+  std::string progress;
+  int jobs = 1;
+  bool is_resumed = false;
+  bool is_forced = false;
+  bool is_verbose = false;
+
+  [[nodiscard]] std::string cache_folder() const {
+    return cache.empty() ? (fs::path(folder) / "cache").string() : cache;
+  }
+};
+
+/// The version and the commit, on one line.
+std::string program_name() {
+  const std::string text = version_text();
+  const std::size_t first = text.find('\n'), second = text.find('\n', first + 1);
+  return text.substr(0, first) + ", " + text.substr(first + 1, second - first - 1);
+}
+
+/// Files of data sets that cannot be read weigh more than what the plan says of them.
+ExitCode exit_code_of(const std::vector<Issue>& issues) {
+  ExitCode code = ExitCode::clean;
+  for (const Issue& issue : issues) {
+    if (issue.severity == Severity::note) continue;
+    const bool is_of_plan = to_string(issue.code).starts_with("R");
+    if (issue.severity == Severity::error)
+      code = graver(code, is_of_plan ? ExitCode::rules : ExitCode::input);
+    else if (!is_of_plan)
+      code = graver(code, ExitCode::set_aside);
+  }
+  return code;
+}
+
+/// "FILE: experiment NAME, 2 sets; sweep, compare".
+std::string summary_of(const std::string& file, const ExperimentPlan& plan) {
+  std::string parts;
+  const auto add_if = [&](bool is_there, const char* name) {
+    if (is_there) parts += (parts.empty() ? "" : ", ") + std::string(name);
+  };
+  add_if(plan.sweep.has_value(), "sweep");
+  add_if(plan.ablate.has_value(), "ablate");
+  add_if(!plan.compare.empty(), "compare");
+  add_if(plan.stability.has_value(), "stability");
+  add_if(plan.learning_curve.has_value(), "learning_curve");
+  add_if(plan.learn.has_value(), "learn");
+  return fmt::format("{}: experiment {}, {}; {}\n", printable(file), printable(plan.name),
+                     counted(plan.sets.size(), "set"), parts);
+}
+
+ExitCode check(const ExperimentArguments& arguments) {
+  Report report(true);
+  const auto plan = load_experiment_file(arguments.file);
+  report.add(plan.issues);
+  if (!plan.value) return ExitCode::rules;
+  const auto issues = check_experiment(*plan.value);
+  report.add(issues);
+  if (!has_errors(issues)) print_out(summary_of(arguments.file, *plan.value));
+  return exit_code_of(issues);
+}
+
+/// Results of another experiment are not replaced unasked: E604.
+void refuse_other_results(const ExperimentArguments& arguments, const ExperimentPlan& plan) {
+  const fs::path manifest = fs::path(arguments.folder) / "manifest.json";
+  std::ifstream file(manifest);
+  if (!file || arguments.is_forced) return;
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  const std::string other = json.is_object() ? json.value("name", std::string()) : std::string();
+  if (other == plan.name) return;
+  refuse_usage("-o", Code::E604,
+               fmt::format("{} has the results of another experiment{}; --force replaces them",
+                           printable(arguments.folder),
+                           other.empty() ? "" : ", '" + printable(other) + "'"));
+}
+
+/// All of the files, or none of those that were not there before.
+void write_files(const std::string& folder, const std::vector<ReportFile>& files) {
+  std::vector<std::unique_ptr<OutputFile>> outputs;
+  std::vector<fs::path> new_files;
+  for (const ReportFile& file : files) {
+    const fs::path path = fs::path(folder) / file.path;
+    std::error_code problem;  // opening the file says why it cannot be
+    fs::create_directories(path.parent_path(), problem);
+    if (!fs::exists(path, problem)) new_files.push_back(path);
+    outputs.push_back(std::make_unique<OutputFile>(path.string()));
+    outputs.back()->append(file.text);
+  }
+  try {
+    for (const auto& output : outputs) output->commit();
+  } catch (const OutputError&) {
+    std::error_code ignored;
+    for (const fs::path& path : new_files) fs::remove(path, ignored);
+    throw;
+  }
+}
+
+/// Shares of the work on so many threads, which end with `work`.
+ForEachShare in_threads(int jobs) {
+  if (jobs == 1) return for_each_in_turn;
+  return [jobs](std::size_t count, const std::function<void(std::size_t)>& work) {
+    in_arena(jobs, [&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  };
+}
+
+ExitCode run(const ExperimentArguments& arguments) {
+  Report report(arguments.is_verbose);
+  const auto plan = load_experiment_file(arguments.file);
+  report.add(plan.issues);
+  if (!plan.value) return ExitCode::rules;
+  NamedFiles names;
+  for (const std::string& file : files_of_experiment(*plan.value))
+    names.add_input("experiment", file);
+  for (const char* output :
+       {"results.csv", "report.md", "report.html", "tables.tex", "manifest.json"})
+    names.add_output("-o", (fs::path(arguments.folder) / output).string());
+  names.check();
+  refuse_other_results(arguments, *plan.value);
+  ExperimentOptions options;
+  options.program = program_name();
+  options.cache = arguments.cache_folder();
+  options.resumes = arguments.is_resumed;
+  options.for_each = in_threads(arguments.jobs);
+  std::optional<StepProgress> progress(progress_style_of(arguments.progress));
+  options.observer = [&](const ExperimentStep& step) {
+    progress->show(step.what, step.done, step.all);
+  };
+  const auto results = run_experiment(*plan.value, options);
+  progress.reset();
+  report.add(results.issues);
+  report.finish();
+  const ExitCode code = exit_code_of(results.issues);
+  if (!results.value) return code;
+  const auto files = report_files(*results.value);
+  write_files(arguments.folder, files);
+  run_log().info("{} in {}, of {}", counted(files.size(), "file"), printable(arguments.folder),
+                 counted(results.value->rows.size(), "row"));
+  return code;
+}
+
+void add_experiment_file(CLI::App& command, ExperimentArguments& arguments) {
+  command.add_option("file", arguments.file, "The experiment: a YAML file")->required();
+}
+
+void add_experiment_run(CLI::App& experiment, Action& action) {
+  auto arguments = std::make_shared<ExperimentArguments>();
+  CLI::App* command = experiment.add_subcommand(
+      "run", "Measure what an experiment asks for, and write tables, plots and a report");
+  add_experiment_file(*command, *arguments);
+  command
+      ->add_option("-o,--output", arguments->folder,
+                   "Folder for the results; it is made if it is not there")
+      ->required();
+  add_jobs_argument(*command, arguments->jobs);
+  command->add_flag("--resume", arguments->is_resumed,
+                    "Take the measurements that an earlier run has finished, if all that they "
+                    "depend on is the same");
+  command->add_option("--cache", arguments->cache,
+                      "Folder for features and finished measurements (default: cache in the folder "
+                      "of the results)");
+  command->add_flag("--force", arguments->is_forced,
+                    "Replace the results of another experiment in the folder");
+  command
+      ->add_option("--progress", arguments->progress,
+                   "Show on stderr: bar, json (lines) or none (default: bar on a terminal)")
+      ->check(one_of({"bar", "json", "none"}));
+  command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
+  command->footer("Example:\n  oriel experiment run sweep.yaml -o results/ -j 0");
+  command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+void add_experiment_check(CLI::App& experiment, Action& action) {
+  auto arguments = std::make_shared<ExperimentArguments>();
+  CLI::App* command = experiment.add_subcommand(
+      "check", "Check an experiment and its data sets, and report everything that is wrong");
+  add_experiment_file(*command, *arguments);
+  command->footer("Example:\n  oriel experiment check sweep.yaml");
+  command->callback([arguments, &action] { action = [arguments] { return check(*arguments); }; });
+}
+
+void add_experiment_schema(CLI::App& experiment, Action& action) {
+  CLI::App* command = experiment.add_subcommand(
+      "schema", "Print the JSON Schema of experiments, for completion in editors");
+  command->footer("Example:\n  oriel experiment schema > oriel-experiment-1.schema.json");
+  command->callback([&action] {
+    action = [] {
+      print_out(experiment_schema(), true);
+      return ExitCode::clean;
+    };
+  });
+}
+
+}  // namespace
+
+void add_experiment(CLI::App& app, Action& action) {
+  CLI::App* experiment = app.add_subcommand(
+      "experiment", "Measure rules on data sets: sweeps, ablations, comparisons, stability");
+  experiment->require_subcommand(1);
+  add_experiment_run(*experiment, action);
+  add_experiment_check(*experiment, action);
+  add_experiment_schema(*experiment, action);
+}
+
+}  // namespace oriel::cli
