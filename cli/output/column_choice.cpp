@@ -16,23 +16,23 @@ namespace oriel::cli {
 
 namespace {
 
-using Names = std::vector<std::string>;
+using ColumnNames = std::vector<std::string>;
 
-Names with_prefix(const std::string& prefix, Names names) {
+ColumnNames with_prefix(const std::string& prefix, ColumnNames names) {
   for (const std::string& field : record_fields())
     if (field.starts_with(prefix)) names.push_back(field);
   return names;
 }
 
-Names attribute_columns() {
-  Names names;
+ColumnNames attribute_columns() {
+  ColumnNames names;
   for (const AttributeInfo& attribute : feature_schema()) names.push_back(record_name(attribute));
   return names;
 }
 
 /// The columns of each group but `rules`, which are the pack's.
-const std::map<std::string, Names>& column_groups() {
-  static const std::map<std::string, Names> groups = {
+const std::map<std::string, ColumnNames>& column_groups() {
+  static const std::map<std::string, ColumnNames> groups = {
       {"all", record_fields()},
       {"attributes", attribute_columns()},
       {"ids", {"building", "id", "name"}},
@@ -44,7 +44,7 @@ const std::map<std::string, Names>& column_groups() {
 }
 
 std::string wrong_column(const std::string& word) {
-  Names words = record_fields();
+  ColumnNames words = record_fields();
   for (const auto& [group, names] : column_groups()) words.push_back(group);
   words.emplace_back("rules");
   if (std::ranges::find(words, word) != words.end()) return {};
@@ -69,7 +69,7 @@ void add_columns_argument(CLI::App& command, std::vector<std::string>& columns) 
 
 RecordColumns chosen_columns(const std::vector<std::string>& words, const RuleBase& rules) {
   if (words.empty() || std::ranges::find(words, "all") != words.end()) return {};
-  Names names;
+  ColumnNames names;
   for (const std::string& word : words) {
     if (word == "rules") {
       std::ranges::move(names_of_columns(columns_read(rules)), std::back_inserter(names));
