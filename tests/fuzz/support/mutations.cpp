@@ -9,7 +9,7 @@ namespace oriel::fuzz {
 namespace {
 
 /// Beyond that nothing is added: bodies stay small enough for a second.
-constexpr std::size_t kMostPolygons = 160;
+constexpr std::size_t kMostMutatedPolygons = 160;
 
 /// From tenths of the grid of solids to metres: where tolerances begin and end.
 double distance_m(ByteSource& bytes) {
@@ -125,7 +125,7 @@ void add_noise(Building& building, ByteSource& bytes) {
 
 /// All of it once more, moved, smaller, or inside out.
 void add_body(Building& building, ByteSource& bytes) {
-  if (building.polygons.size() > kMostPolygons / 2) return;
+  if (building.polygons.size() > kMostMutatedPolygons / 2) return;
   const int first = static_cast<int>(building.vertices.size());
   const double scale = bytes.flag() ? 0.5 : 1;
   const bool is_turned = bytes.flag(), is_other_body = bytes.flag(), is_shell = bytes.flag();
