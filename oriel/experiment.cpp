@@ -86,7 +86,8 @@ class ExperimentAtWork {
       ids = ids_of_set(set.files, plan_.options, issues);
       if (!has_errors(issues))
         set.buildings = measured_buildings(*set.plan, plan_, set.files, ids, issues);
-      if (!has_errors(issues)) set.samples = stored_samples(set.files, set.buildings, issues);
+      if (!has_errors(issues))
+        set.samples = stored_samples(set.files, set.buildings, *plan_.rules.base, issues);
       return;
     }
     auto features = features_of(

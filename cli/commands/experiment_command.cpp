@@ -59,7 +59,9 @@ ExitCode exit_code_of(const std::vector<Issue>& issues) {
   ExitCode code = ExitCode::clean;
   for (const Issue& issue : issues) {
     if (issue.severity == Severity::note) continue;
-    const bool is_of_plan = to_string(issue.code).starts_with("R");
+    // What stored features lack is said, and measured as it is.
+    const bool is_of_plan = to_string(issue.code).starts_with("R") || issue.code == Code::E151 ||
+                            issue.code == Code::E121;
     if (issue.severity == Severity::error)
       code = graver(code, is_of_plan ? ExitCode::rules : ExitCode::input);
     else if (!is_of_plan)

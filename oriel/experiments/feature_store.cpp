@@ -258,9 +258,9 @@ std::vector<KeptFeatures> FeatureStore::features_of(const std::vector<HashedFile
   return all;
 }
 
-std::vector<KeptBuilding> read_stored_features(const std::string& path,
-                                               std::vector<Issue>& issues) {
-  auto tables = read_feature_tables(path);
+std::vector<KeptBuilding> read_stored_features(const std::string& path, std::vector<Issue>& issues,
+                                               RecordColumns* columns) {
+  auto tables = read_feature_tables(path, columns);
   issues.insert(issues.end(), tables.issues.begin(), tables.issues.end());
   std::vector<KeptBuilding> buildings;
   if (!tables.value) return buildings;

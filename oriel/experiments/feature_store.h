@@ -2,6 +2,7 @@
 
 #include "interpret/experiment/parallel.h"
 #include "kernel/base/issue.h"
+#include "kernel/io/records/record_columns.h"
 #include "kernel/model/description/feature_graph.h"
 #include "kernel/model/vec3.h"
 #include "kernel/perturb/perturb.h"
@@ -74,7 +75,8 @@ class FeatureStore {
 };
 
 /// The features in a file of records, building by building. What is wrong with it is added to
-/// `issues`. Throws InputError as read_feature_tables() does.
-std::vector<KeptBuilding> read_stored_features(const std::string& path, std::vector<Issue>& issues);
+/// `issues`; `columns` becomes what the file has. Throws InputError as read_feature_tables() does.
+std::vector<KeptBuilding> read_stored_features(const std::string& path, std::vector<Issue>& issues,
+                                               RecordColumns* columns = nullptr);
 
 }  // namespace oriel

@@ -6,6 +6,7 @@
 #include "kernel/io/reader.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/experiments/file_patterns.h"
+#include "oriel/interpret.h"
 #include "oriel/score.h"
 
 #include <algorithm>
@@ -174,6 +175,18 @@ void check_objectives(const SetPlan& set, const ExperimentPlan& plan, const SetF
                       set.name, (*learn)->objective, rules::join({all.begin(), all.end()}))));
 }
 
+void report_lacking_columns(const std::string& path, const std::vector<std::string>& lacking,
+                            std::vector<Issue>& issues) {
+  if (lacking.empty()) return;
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E151;
+  issue.sentence = fmt::format("the features lack {}, which the rules read: {}",
+                               counted(lacking.size(), "column"), rules::join(lacking));
+  issue.place.file = path;
+  issues.push_back(std::move(issue));
+}
+
 /// Errors and warnings about ids that only one side has.
 void check_ids(const SetPlan& set, const SetFiles& files, const IdsOfSet& found,
                std::vector<Issue>& issues) {
@@ -335,10 +348,14 @@ std::vector<Sample> samples_of(std::vector<KeptFeatures> features, const SetFile
 }
 
 std::vector<Sample> stored_samples(const SetFiles& files, const std::vector<std::string>& buildings,
-                                   std::vector<Issue>& issues) {
+                                   const RuleBase& rules, std::vector<Issue>& issues) {
   std::vector<KeptFeatures> features(files.features.size());
-  for (std::size_t i = 0; i < features.size(); ++i)
-    features[i].buildings = read_stored_features(files.features[i].path, issues);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    RecordColumns columns;
+    const std::string& path = files.features[i].path;
+    features[i].buildings = read_stored_features(path, issues, &columns);
+    report_lacking_columns(path, columns_lacking(rules, columns), issues);
+  }
   return samples_of(std::move(features), files, buildings);
 }
 

@@ -62,9 +62,10 @@ struct SampleSet {
   std::vector<Sample> samples;
 };
 
-/// Reads the samples of `buildings` from stored features.
+/// Reads the samples of `buildings` from stored features. A warning E151 for each file that lacks
+/// columns which the rules read.
 std::vector<Sample> stored_samples(const SetFiles& files, const std::vector<std::string>& buildings,
-                                   std::vector<Issue>& issues);
+                                   const RuleBase& rules, std::vector<Issue>& issues);
 
 /// Samples of `buildings`, from what a store has of the models; ids of all buildings that these
 /// have are put into `ids` if it is not null.

@@ -119,6 +119,10 @@ TEST_SUITE("cli/experiment") {
     folder.write("e.yaml", with("features: parts.csv"));
     REQUIRE(run_experiment_in(folder, "features").exit == 0);
     CHECK(bytes_of(folder / "models/results.csv") == bytes_of(folder / "features/results.csv"));
+    folder.write("parts.csv", "building,id,aabb_m\nhouse,f1,0;0;0;1;1;1\n");
+    const Outcome poor = run_experiment_in(folder, "poor");
+    CHECK(poor.exit == 0);
+    CHECK_MESSAGE(poor.says("E151"), poor.err);
   }
 
   TEST_CASE("the baseline of an experiment is what score says of the labels") {
