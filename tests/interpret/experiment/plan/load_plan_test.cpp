@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 using namespace oriel;
 
@@ -29,6 +30,31 @@ std::string experiment_with(const std::string& sections, const std::string& rule
   return "schema: oriel-experiment/1\nname: t\nsets: {houses: {models: a.city.json, truth: "
          "a.truth.json}}\nrules: " +
          rules + "\n" + sections;
+}
+
+/// The keys that the loader names where it finds the key `zzzzzz`.
+std::set<std::string> keys_of_loader(const std::string& text) {
+  std::set<std::string> keys;
+  for (const Issue& issue : load_experiment(text, "t.yaml").issues) {
+    const std::size_t at = issue.sentence.find("(keys: ");
+    if (issue.code != Code::R209 || at == std::string::npos) continue;
+    std::string list = issue.sentence.substr(at + 7);
+    list.back() = ',';
+    while (!list.empty()) {
+      keys.insert(list.substr(0, list.find(',')));
+      list.erase(0, list.find(',') + 1);
+      list.erase(0, list.find_first_not_of(' '));
+    }
+  }
+  return keys;
+}
+
+std::set<std::string> keys_of_schema(const std::string& path) {
+  static const auto schema = nlohmann::json::parse(experiment_schema());
+  std::set<std::string> keys;
+  for (const auto& property : schema.at(nlohmann::json::json_pointer(path)).items())
+    keys.insert(property.key());
+  return keys;
 }
 
 ExperimentPlan plan_of(const std::string& sections) {
@@ -85,8 +111,8 @@ TEST_SUITE("interpret/experiment/plan") {
   }
 
   TEST_CASE("values of a sweep go from end to end of a range") {
-    const ExperimentPlan plan =
-        plan_of("sweep: {params: {widest_window: 3 m .. 400 cm, step: [0.3 m, 50 cm]}, values: 3}\n");
+    const ExperimentPlan plan = plan_of(
+        "sweep: {params: {widest_window: 3 m .. 400 cm, step: [0.3 m, 50 cm]}, values: 3}\n");
     CHECK(swept(plan, 0).values == std::vector<double>{3, 3.5, 4});
     CHECK(swept(plan, 0).unit == "m");
     CHECK(swept(plan, 1).values == std::vector<double>{0.3, 0.5});
@@ -127,6 +153,23 @@ TEST_SUITE("interpret/experiment/plan") {
       names.push_back(disturbance.name);
     CHECK(names == std::vector<std::string>{"noise = 0.005 m", "noise = 0.02 m", "triangulation",
                                             "missing_faces = 5 %", "coplanar = 1 deg"});
+  }
+
+  TEST_CASE("the schema has the keys that are read") {
+    const std::string set = "schema: oriel-experiment/1\nname: t\nsets: {s: {zzzzzz: 1}}\n";
+    CHECK(keys_of_loader("zzzzzz: 1\n") == keys_of_schema("/properties"));
+    CHECK(keys_of_loader(set) == keys_of_schema("/definitions/set/properties"));
+    CHECK(keys_of_loader(experiment_with("options: {zzzzzz: 1}\n")) ==
+          keys_of_schema("/properties/options/properties"));
+    CHECK(keys_of_loader(experiment_with("", "{zzzzzz: 1}")) ==
+          keys_of_schema("/definitions/rules/properties"));
+    CHECK(keys_of_loader(experiment_with("compare: {a: {zzzzzz: 1}}\n")) ==
+          keys_of_schema("/definitions/compared/properties"));
+    CHECK(keys_of_loader(experiment_with("stability: {tolerances: {zzzzzz: 1}}\n")) ==
+          keys_of_schema("/definitions/stability/properties/tolerances/properties"));
+    for (const char* part : {"sweep", "stability", "learn", "learning_curve"})
+      CHECK(keys_of_loader(experiment_with(fmt::format("{}: {{zzzzzz: 1}}\n", part))) ==
+            keys_of_schema(fmt::format("/definitions/{}/properties", part)));
   }
 
   TEST_CASE("a pack is a file beside the experiment") {
