@@ -86,6 +86,9 @@ class SampleReader {
       if (!samples_.contains(id)) without_features.push_back(id);
     report(both.size(), without_truth, without_features);
     if (has_errors(issues_)) return {std::nullopt, std::move(issues_)};
+    for (const std::string& id : without_features)
+      both.push_back({{FeatureTable(id, 0), {}}, {}, truths_[id]});
+    std::ranges::sort(both, {}, [](const Sample& s) { return s.features.table.building(); });
     return {std::move(both), std::move(issues_)};
   }
 
@@ -116,15 +119,17 @@ class SampleReader {
                       samples_.empty() ? "none" : some_of(without_truth))));
       return;
     }
-    const auto warn = [&](const std::vector<std::string>& ids, const char* what) {
-      if (!ids.empty())
-        issues_.push_back(issue_of_samples(
-            Severity::warning,
-            fmt::format("{} {} left out: there {} of {}", counted(ids.size(), "building"),
-                        agreeing(ids.size(), "is", "are"), what, some_of(ids))));
-    };
-    warn(without_truth, "is no truth");
-    warn(without_features, "are no features");
+    if (!without_truth.empty())
+      issues_.push_back(issue_of_samples(
+          Severity::warning,
+          fmt::format("{} {} left out: there is no truth of {}",
+                      counted(without_truth.size(), "building"),
+                      agreeing(without_truth.size(), "is", "are"), some_of(without_truth))));
+    if (!without_features.empty())
+      issues_.push_back(issue_of_samples(
+          Severity::warning, fmt::format("there are no features of {}: all objects there count as "
+                                         "missed",
+                                         some_of(without_features))));
   }
 
   std::map<std::string, Sample> samples_;

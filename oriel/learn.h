@@ -17,8 +17,9 @@ namespace oriel {
 /// Samples of stored features, in the order of their buildings' names, with the truth of the same
 /// buildings. `records` are files of feature records, `truths` are `*.truth.json` and
 /// `*.truth.jsonl` files. Issues are those of reading them, and R284: an error if no building has
-/// both features and truth, or a building occurs twice; else a warning about buildings that have
-/// one without the other, which are left out. Throws InputError for a file that cannot be read.
+/// both features and truth, or a building occurs twice; else a warning
+/// about buildings without truth, which are left out, and about those without features, whose
+/// objects count as missed. Throws InputError for a file that cannot be read.
 Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
                                           std::span<const std::string> truths);
 

@@ -33,8 +33,11 @@ constexpr double kMovedAtRestart = 0.3;
 /// A better objective than by this is better.
 constexpr double kBetter = 1e-9;
 
-Issue fault_of_learning(Severity severity, Code code, std::string sentence) {
+/// `place` is what is wrong: a param, the objective, a fold.
+Issue fault_of_learning(Severity severity, Code code, const std::string& place,
+                        std::string sentence) {
   Issue issue;
+  issue.place.file = place;
   issue.severity = severity;
   issue.code = code;
   issue.sentence = std::move(sentence);
@@ -113,11 +116,11 @@ class Learner {
       const auto names = rules::names_of(pack.params);
       if (param < 0) {
         issues_.push_back(fault_of_learning(
-            Severity::error, Code::R206,
+            Severity::error, Code::R206, name,
             fmt::format("unknown param '{}'{}", name, rules::did_you_mean(name, names))));
       } else if (std::ranges::find(set_.params(), at(param)) == set_.params().end()) {
         issues_.push_back(
-            fault_of_learning(Severity::error, Code::R206,
+            fault_of_learning(Severity::error, Code::R206, name,
                               fmt::format("the param '{}' cannot be learnt: {}", name,
                                           pack.params[at(param)].range ? "no label depends on it"
                                                                        : "it has no range")));
@@ -137,21 +140,21 @@ class Learner {
     if (const std::string& label = options_.objective.label();
         !label.empty() && !all.contains(label))
       issues_.push_back(
-          fault_of_learning(Severity::error, Code::R283,
+          fault_of_learning(Severity::error, Code::R283, options_.objective.name(),
                             fmt::format("the truth has no {}, whose F1 is the objective; it has {}",
                                         label, all.empty() ? "nothing" : list_of_labels(all))));
     else if (all.empty())
-      issues_.push_back(
-          fault_of_learning(Severity::error, Code::R283, "the truth has no object to learn from"));
+      issues_.push_back(fault_of_learning(Severity::error, Code::R283, options_.objective.name(),
+                                          "the truth has no object to learn from"));
   }
 
   void check_folds() {
     const std::size_t count = set_.samples().size();
     if (parts_.size() < 2 && count > 0 && (parts_.empty() || parts_[0].size() >= count))
       issues_.push_back(
-          fault_of_learning(Severity::error, Code::R282,
-                            fmt::format("nothing is left to learn from: there {}",
-                                        counted(count, "is building", "are buildings"))));
+          fault_of_learning(Severity::error, Code::R282, "folds",
+                            fmt::format("nothing is left to learn from: there {} {}",
+                                        agreeing(count, "is", "are"), counted(count, "building"))));
     const auto all = expected_labels(set_.samples(), numbers_below(count));
     const bool are_single =
         std::ranges::all_of(parts_, [](const auto& p) { return p.size() == 1; });
@@ -160,9 +163,9 @@ class Learner {
       for (const std::string& label : expected_labels(set_.samples(), parts_[i]))
         lacking.erase(label);
       if (!lacking.empty())
-        issues_.push_back(fault_of_learning(Severity::warning, Code::R285,
-                                            fmt::format("fold {} has no {}, which other folds have",
-                                                        i + 1, list_of_labels(lacking))));
+        issues_.push_back(fault_of_learning(
+            Severity::warning, Code::R285, fmt::format("fold {}", i + 1),
+            fmt::format("it has no {}, which other folds have", list_of_labels(lacking))));
     }
   }
 

@@ -1,0 +1,71 @@
+#include "tests/cli/command.h"
+
+#include <string>
+
+using namespace oriel::test;
+
+namespace {
+
+/// Records of all samples that are houses of their own.
+std::string samples_labelled(const Folder& folder) {
+  const std::string records = folder / "parts.jsonl";
+  REQUIRE(run({"label", sample("house"), sample("hip"), sample("l-house"), "--features", records})
+              .exit == 0);
+  return records;
+}
+
+std::string truth_of(const std::string& name) {
+  return std::string(ORIEL_SOURCE_DIR) + "/examples/samples/" + name + ".truth.json";
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("learn writes a pack that loads and says the same with any number of threads") {
+    const Folder folder;
+    const std::string records = samples_labelled(folder);
+    Words words{"learn",
+                records,
+                "--truth",
+                truth_of("house"),
+                truth_of("hip"),
+                truth_of("l-house"),
+                "--leave-one-out",
+                "--restarts",
+                "0",
+                "-o",
+                folder / "one.yaml"};
+    const Outcome one = run(words);
+    CHECK(one.exit == 0);
+    words.back() = folder / "two.yaml";
+    words.insert(words.end(), {"-j", "2"});
+    const Outcome two = run(words);
+    CHECK(one.out == two.out);
+    const std::string first = bytes_of(folder / "one.yaml");
+    CHECK(first.find("extends: residential") != std::string::npos);
+    CHECK(first.substr(first.find("extends")) ==
+          bytes_of(folder / "two.yaml").substr(bytes_of(folder / "two.yaml").find("extends")));
+    CHECK(run({"rules", "check", folder / "one.yaml"}).exit == 0);
+    CHECK(one.out.find("held-out folds") != std::string::npos);
+  }
+
+  TEST_CASE("learn writes nothing where it cannot learn") {
+    const Folder folder;
+    const std::string records = samples_labelled(folder);
+    const std::string out = folder / "learnt.yaml";
+    const auto refused = [&](Words words, const std::string& code) {
+      words.insert(words.begin(), {"learn", records});
+      words.insert(words.end(), {"-o", out});
+      const Outcome outcome = run(words);
+      CHECK(outcome.exit == 5);
+      CHECK(outcome.err.find(code) != std::string::npos);
+      CHECK(run({"rules", "check", out}).exit == 4);
+    };
+    refused({"--truth", truth_of("row")}, "R284");
+    refused({"--truth", truth_of("house")}, "R282");
+    refused({"--truth", truth_of("house"), truth_of("hip"), "--objective", "f1:tower"}, "R283");
+    refused({"--truth", truth_of("house"), truth_of("hip"), "--params", "parpet"},
+            "did you mean 'parapet'");
+    CHECK(run({"learn", records, "--truth", truth_of("house"), "--objective", "best"}).exit == 2);
+  }
+}
