@@ -106,11 +106,11 @@ bool is_as_by_itself(const RuleBase& rules, const std::vector<Variant>& variants
 TEST_SUITE("interpret/experiment") {
   TEST_CASE("variants of a small pack are counted as if each were run by itself") {
     const RuleBase rules = load(kSmallPack);
-    rc::check([&] {
+    CHECK(rc::check([&] {
       const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
       const std::vector<Sample> samples{random_sample(seed, 12), random_sample(seed + 1, 9)};
       RC_ASSERT(is_as_by_itself(rules, variants_of(rules, seed), samples));
-    });
+    }));
   }
 
   TEST_CASE("variants of a pack with rounds are counted as if each were run by itself") {

@@ -100,7 +100,7 @@ TEST_SUITE("interpret/params") {
   TEST_CASE("a pack with params set says what a text with these values says") {
     const RuleBase base = everywhere();
     int accepted = 0;
-    rc::check([&] {
+    CHECK(rc::check([&] {
       const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
       Draws draws(seed);
       std::vector<ParamValue> values;
@@ -122,7 +122,7 @@ TEST_SUITE("interpret/params") {
       RC_ASSERT(is_same(p.hosts, q.hosts));
       for (std::size_t i = 0; i < p.params.size(); ++i)
         RC_ASSERT(p.surfaces->pack.params[i].value == q.surfaces->pack.params[i].value);
-    });
+    }));
     CHECK(accepted > 10);
   }
 
@@ -180,11 +180,11 @@ TEST_SUITE("interpret/params") {
     const RuleBase base = everywhere();
     CHECK(to_string(ParamValue{"sill", 0.1 + 0.2}, base) == "sill = 0.30000000000000004 m");
     CHECK(to_string(ParamValue{"enough", 1e-7}, base) == "enough = 0.0000001");
-    rc::check([&] {
+    CHECK(rc::check([&] {
       const double value = *rc::gen::inRange(1, 1'000'000) / 1e6 * 2.8 + 0.2;
       const std::array<std::string, 1> text{to_string(ParamValue{"sill", value}, base)};
       const auto read = read_assignments(base, text);
       RC_ASSERT(read.value && read.value->front().value == value);
-    });
+    }));
   }
 }

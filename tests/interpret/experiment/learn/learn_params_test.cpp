@@ -84,7 +84,7 @@ std::string faults(const RuleBase& rules, const std::vector<Sample>& samples,
 TEST_SUITE("interpret/experiment/learn") {
   TEST_CASE("a curve says what a pack at each of its values comes to") {
     const RuleBase rules = sills();
-    rc::check([&] {
+    CHECK(rc::check([&] {
       const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
       const std::vector<Sample> samples{random_sample(seed, 15)};
       const ForEachShare for_each = for_each_in_turn;
@@ -110,7 +110,7 @@ TEST_SUITE("interpret/experiment/learn") {
           }
         }
       }
-    });
+    }));
   }
 
   TEST_CASE("a param that was moved comes back and nothing else is changed") {
