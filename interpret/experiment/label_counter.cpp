@@ -93,35 +93,35 @@ void LabelCounter::find_pairs(const Sample& sample, const ScoreOptions& options)
 }
 
 const MatchedLabels& LabelCounter::match(std::span<const int> labels) {
-  using Row = MatchedLabels::Row;
+  using Fate = MatchedLabels::Fate;
   matched_.row_of.assign(objects_.size(), -1);
-  matched_.rows.assign(labels.size(), Row::unlabelled);
+  matched_.rows.assign(labels.size(), Fate::unlabelled);
   for (std::size_t row = 0; row < labels.size(); ++row)
-    if (labels[row] != LabelSet::kNone) matched_.rows[row] = Row::nothing;
-  const auto match_all = [&](Row as, bool needs_same) {
+    if (labels[row] != LabelSet::kNone) matched_.rows[row] = Fate::nothing;
+  const auto match_all = [&](Fate as, bool needs_same) {
     for (const BoxPair& pair : pairs_) {
       const Object& object = objects_[at(pair.object)];
-      if (object.is_left_out || matched_.rows[at(pair.row)] != Row::nothing) continue;
+      if (object.is_left_out || matched_.rows[at(pair.row)] != Fate::nothing) continue;
       if (matched_.row_of[at(pair.object)] >= 0) continue;
       if (needs_same && object.label != labels[at(pair.row)]) continue;
       matched_.row_of[at(pair.object)] = pair.row;
       matched_.rows[at(pair.row)] = as;
     }
   };
-  match_all(Row::hit, true);
+  match_all(Fate::hit, true);
   for (const BoxPair& pair : pairs_)
-    if (objects_[at(pair.object)].is_left_out && matched_.rows[at(pair.row)] == Row::nothing)
-      matched_.rows[at(pair.row)] = Row::neutral;
-  match_all(Row::confused, false);
+    if (objects_[at(pair.object)].is_left_out && matched_.rows[at(pair.row)] == Fate::nothing)
+      matched_.rows[at(pair.row)] = Fate::neutral;
+  match_all(Fate::confused, false);
   return matched_;
 }
 
 void LabelCounter::count(std::span<const int> labels, std::span<ClassCounts> counts) {
-  using Row = MatchedLabels::Row;
+  using Fate = MatchedLabels::Fate;
   match(labels);
   for (std::size_t row = 0; row < labels.size(); ++row) {
-    if (matched_.rows[row] == Row::hit) ++counts[at(labels[row])].true_positives;
-    if (matched_.rows[row] == Row::confused || matched_.rows[row] == Row::nothing)
+    if (matched_.rows[row] == Fate::hit) ++counts[at(labels[row])].true_positives;
+    if (matched_.rows[row] == Fate::confused || matched_.rows[row] == Fate::nothing)
       ++counts[at(labels[row])].false_positives;
   }
   for (std::size_t i = 0; i < objects_.size(); ++i)

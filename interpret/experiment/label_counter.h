@@ -49,12 +49,12 @@ struct ClassCounts {
 struct MatchedLabels {
   /// By object of the truth: the row that it was matched with, or -1.
   std::vector<int> row_of;
-  enum class Row : std::uint8_t { unlabelled, hit, neutral, confused, nothing };
-  std::vector<Row> rows;
+  enum class Fate : std::uint8_t { unlabelled, hit, neutral, confused, nothing };
+  std::vector<Fate> rows;
 
   [[nodiscard]] bool is_hit(std::size_t object) const {
     const int row = row_of[object];
-    return row >= 0 && rows[static_cast<std::size_t>(row)] == Row::hit;
+    return row >= 0 && rows[static_cast<std::size_t>(row)] == Fate::hit;
   }
 };
 

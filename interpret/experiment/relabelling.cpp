@@ -75,8 +75,7 @@ bool Relabelling::ask(const Pack& changed, const RuleUses::Affected& affected,
   bool is_other = false;
   for (const int rule : affected.rules) {
     const auto r = oriel::at(rule);
-    judged_anew_[r] =
-        judge(changed, changed.rules[r], evaluator, context.row_numbers);
+    judged_anew_[r] = judge(changed, changed.rules[r], evaluator, context.row_numbers);
     is_anew_[r] = true;
     is_other = is_other || !are_same(judged_anew_[r], judged_[r]);
   }

@@ -40,8 +40,7 @@ class Relabelling {
   void know_judgements();
   [[nodiscard]] bool is_as_before(const RuleUses::Affected& affected) const;
   void keep(const RuleUses::Affected& affected);
-  bool ask(const Pack& changed, const RuleUses::Affected& affected,
-           EvaluationContext& context);
+  bool ask(const Pack& changed, const RuleUses::Affected& affected, EvaluationContext& context);
   std::vector<Choice> run(const Pack& pack, EvaluationContext& context, const Known* known) const;
 
   const Pack* pack_;

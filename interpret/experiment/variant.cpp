@@ -20,7 +20,6 @@ using rules::ExprId;
 using rules::Pack;
 using rules::Rule;
 using rules::SourceSpan;
-using Kind = DroppedPart::Kind;
 
 /// Goes through a pack and lists what can be left out.
 class AblationFinder {
@@ -35,6 +34,8 @@ class AblationFinder {
   }
 
  private:
+  using Kind = DroppedPart::Kind;
+
   void add(DroppedPart part, std::string name, SourceSpan span) {
     Variant& variant = found_.emplace_back();
     variant.name = "without " + std::move(name);

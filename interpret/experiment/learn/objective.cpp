@@ -61,7 +61,7 @@ std::string Objective::name() const {
 double Objective::cost_of(const LabelCounter& counter, std::span<const int> labels,
                           const LabelSet& set) const {
   if (!costs_) return 0;
-  using Row = MatchedLabels::Row;
+  using Fate = MatchedLabels::Fate;
   const MatchedLabels& matched = counter.last();
   double sum = 0;
   const auto add = [&](const std::string& truth, const std::string& predicted) {
@@ -75,7 +75,7 @@ double Objective::cost_of(const LabelCounter& counter, std::span<const int> labe
         row < 0 ? kNothing : set.names()[at(labels[at(row)])]);
   }
   for (std::size_t row = 0; row < labels.size(); ++row)
-    if (matched.rows[row] == Row::nothing) add(kNothing, set.names()[at(labels[row])]);
+    if (matched.rows[row] == Fate::nothing) add(kNothing, set.names()[at(labels[row])]);
   return sum;
 }
 

@@ -22,13 +22,13 @@ struct LabelOutcome {
 /// How the outcome of one building depends on one param: a constant between places where labels
 /// flip. Places themselves are not asked of: values are chosen between them.
 struct ParamCurve {
-  struct Piece {
+  struct Part {
     double from = 0;
     LabelOutcome outcome;
   };
   /// The first begins at the low end of the param's range; each has another outcome than that
   /// before it.
-  std::vector<Piece> pieces;
+  std::vector<Part> pieces;
   /// At the value that the param has.
   LabelOutcome at_value;
 };
