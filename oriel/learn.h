@@ -5,6 +5,7 @@
 #include "interpret/experiment/learn/ask.h"           // IWYU pragma: export
 #include "interpret/experiment/learn/learn_params.h"  // IWYU pragma: export
 #include "interpret/experiment/learn/learnt_pack.h"   // IWYU pragma: export
+#include "interpret/experiment/learn/propose.h"       // IWYU pragma: export
 #include "interpret/experiment/sample.h"              // IWYU pragma: export
 #include "kernel/base/issue.h"
 

@@ -47,6 +47,7 @@ struct LearnArguments {
   int restarts = LearnOptions{}.restarts;
   std::uint64_t seed = 1;
   std::size_t questions = 0;
+  bool proposes = false;
   int jobs = 1;
   bool is_json = false;
   bool is_verbose = false;
@@ -137,6 +138,21 @@ ForEachShare in_threads(int jobs) {
   };
 }
 
+/// Changes of rules that pay with the pack as it is, as a person can put them into a pack.
+std::string proposals_text(const LearnArguments& arguments, const RuleBase& rules,
+                           const std::vector<Sample>& samples,
+                           const std::vector<std::vector<std::size_t>>& parts,
+                           const Objective& objective) {
+  ProposeOptions options;
+  options.objective = objective;
+  options.penalty = arguments.penalty;
+  const auto proposals = propose(rules, samples, parts, options, in_threads(arguments.jobs));
+  if (proposals.empty()) return "no change of a rule pays on held-out folds\n";
+  const auto merged = merge_pack_file(arguments.rules);
+  return "changes of rules that pay, for a person to judge:\n" +
+         to_yaml(proposals, merged.value.value_or(""));
+}
+
 ExitCode learn(const LearnArguments& arguments, Report& report) {
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -165,9 +181,11 @@ ExitCode learn(const LearnArguments& arguments, Report& report) {
                                           extended_name(arguments.rules)));
   std::string text =
       arguments.is_json ? to_json(*learnt.value, *rules) + "\n" : to_text(*learnt.value, *rules);
-  if (arguments.questions > 0 && !arguments.is_json)
+  if (arguments.questions > 0)
     text += "answers that would help most:\n" +
             to_text(open_questions(*rules, *samples.value, *learnt.value, arguments.questions));
+  if (arguments.proposes)
+    text += proposals_text(arguments, *rules, *samples.value, parts, *objective);
   print_out(text, arguments.is_json);
   return ExitCode::clean;
 }
@@ -175,6 +193,10 @@ ExitCode learn(const LearnArguments& arguments, Report& report) {
 ExitCode work(LearnArguments& arguments) {
   if (arguments.objective == "cost" && arguments.costs.empty())
     throw CLI::ValidationError("--objective", "cost needs --costs FILE");
+  if (arguments.proposes && arguments.objective == "cost")
+    throw CLI::ValidationError("--propose", "looks at F1, not at costs");
+  if (arguments.is_json && (arguments.proposes || arguments.questions > 0))
+    throw CLI::ValidationError("--json", "has neither --ask nor --propose");
   Report report(arguments.is_verbose);
   read_once(arguments.records, report);
   arguments.truth = named_truths(arguments.truth);
@@ -244,6 +266,8 @@ void add_learn(CLI::App& app, Action& action) {
       ->add_option("--ask", arguments->questions,
                    "List so many features whose right label would help most")
       ->check(count_in(1, 1'000'000));
+  command->add_flag("--propose", arguments->proposes,
+                    "List changes of rules that would pay, as YAML for a person to judge");
   command->add_flag("--json", arguments->is_json, "Print JSON");
   add_jobs_argument(*command, arguments->jobs);
   command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
