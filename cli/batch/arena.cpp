@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <new>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 namespace oriel::cli {
@@ -20,6 +21,15 @@ void in_arena(int jobs, const std::function<void()>& work) {
   } catch (const std::bad_alloc&) {
     end_without_memory();
   }
+}
+
+SharesInArena shares_in_arena(int jobs) {
+  return [jobs](std::size_t count, const std::function<void(std::size_t)>& work) {
+    if (jobs > 1)
+      in_arena(jobs, [&] { tbb::parallel_for(std::size_t{0}, count, work); });
+    else
+      for (std::size_t i = 0; i < count; ++i) work(i);
+  };
 }
 
 }  // namespace oriel::cli

@@ -16,7 +16,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <oneapi/tbb/parallel_for.h>
 #include <optional>
 #include <string>
 #include <utility>
@@ -132,14 +131,6 @@ void write_files(const std::string& folder, const std::vector<ReportFile>& files
   }
 }
 
-/// Shares of the work on so many threads, which end with `work`.
-ForEachShare in_threads(int jobs) {
-  if (jobs == 1) return for_each_in_turn;
-  return [jobs](std::size_t count, const std::function<void(std::size_t)>& work) {
-    in_arena(jobs, [&] { tbb::parallel_for(std::size_t{0}, count, work); });
-  };
-}
-
 ExitCode run(const ExperimentArguments& arguments) {
   Report report(arguments.is_verbose);
   const auto plan = load_experiment_file(arguments.file);
@@ -157,7 +148,7 @@ ExitCode run(const ExperimentArguments& arguments) {
   options.program = program_name();
   options.cache = arguments.cache_folder();
   options.resumes = arguments.is_resumed;
-  options.for_each = in_threads(arguments.jobs);
+  options.for_each = shares_in_arena(arguments.jobs);
   std::optional<StepProgress> progress(progress_style_of(arguments.progress));
   options.observer = [&](const ExperimentStep& step) {
     progress->show(step.what, step.done, step.all);

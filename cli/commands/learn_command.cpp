@@ -19,7 +19,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <oneapi/tbb/parallel_for.h>
 #include <optional>
 #include <string>
 #include <vector>
@@ -131,13 +130,6 @@ std::string extended_name(const std::string& rules) {
   return embedded_pack(rules) ? rules : fs::path(rules).filename().string();
 }
 
-ForEachShare in_threads(int jobs) {
-  if (jobs <= 1) return for_each_in_turn;
-  return [jobs](std::size_t count, const std::function<void(std::size_t)>& work) {
-    in_arena(jobs, [&] { tbb::parallel_for(std::size_t{0}, count, work); });
-  };
-}
-
 /// Changes of rules that pay with the pack as it is, as a person can put them into a pack.
 std::string proposals_text(const LearnArguments& arguments, const RuleBase& rules,
                            const std::vector<Sample>& samples,
@@ -146,7 +138,7 @@ std::string proposals_text(const LearnArguments& arguments, const RuleBase& rule
   ProposeOptions options;
   options.objective = objective;
   options.penalty = arguments.penalty;
-  const auto proposals = propose(rules, samples, parts, options, in_threads(arguments.jobs));
+  const auto proposals = propose(rules, samples, parts, options, shares_in_arena(arguments.jobs));
   if (proposals.empty()) return "no change of a rule pays on held-out folds\n";
   const auto merged = merge_pack_file(arguments.rules);
   return "changes of rules that pay, for a person to judge:\n" +
@@ -154,7 +146,7 @@ std::string proposals_text(const LearnArguments& arguments, const RuleBase& rule
 }
 
 ExitCode learn(const LearnArguments& arguments, Report& report) {
-  const auto rules = load_rules(arguments.rules, report);
+  const auto rules = load_rules({arguments.rules, {}}, report);
   if (!rules) return ExitCode::rules;
   const auto objective = objective_of(arguments, report);
   if (!objective) return ExitCode::input;
@@ -173,7 +165,7 @@ ExitCode learn(const LearnArguments& arguments, Report& report) {
   const auto parts = folds_of(samples.value->size(), arguments.leaves_one_out ? 0 : arguments.folds,
                               arguments.seed);
   const auto learnt =
-      learn_params(*rules, *samples.value, parts, options, in_threads(arguments.jobs));
+      learn_params(*rules, *samples.value, parts, options, shares_in_arena(arguments.jobs));
   report.add(learnt.issues);
   if (!learnt.value) return ExitCode::input;
   if (!arguments.out.empty())
@@ -258,7 +250,10 @@ void add_learn(CLI::App& app, Action& action) {
       ->add_option("--truth", arguments->truth,
                    "*.truth.json and *.truth.jsonl files, or folders of them")
       ->required();
-  add_rules_argument(*command, arguments->rules);
+  command
+      ->add_option("--rules", arguments->rules,
+                   "Rule pack to start from: a file, or the name of a built-in pack")
+      ->capture_default_str();
   command->add_option("-o,--output", arguments->out,
                       "Write a pack that extends the other and changes what was learnt");
   add_search_arguments(*command, *arguments);

@@ -14,14 +14,14 @@ namespace oriel {
 
 namespace {
 
-std::string assignment_text(const SweptParam& param, double value) {
+std::string name_of_value(const SweptParam& param, double value) {
   return fmt::format("{} = {}", param.name, value_text(value, param.unit));
 }
 
 void add_one_at_a_time(const SweepPlan& sweep, std::vector<PlannedRun>& runs) {
   for (const SweptParam& param : sweep.params)
     for (const double value : param.values)
-      runs.push_back({{assignment_text(param, value), param.name, value, param.unit, false},
+      runs.push_back({{name_of_value(param, value), param.name, value, param.unit, false},
                       {"", {{param.name, value}}, {}, {}}});
 }
 
@@ -32,7 +32,7 @@ void add_grid(const SweepPlan& sweep, std::vector<PlannedRun>& runs) {
     for (std::size_t p = 0; p < at.size(); ++p) {
       const SweptParam& param = sweep.params[p];
       const double value = param.values[at[p]];
-      run.setting.name += (p == 0 ? "" : ", ") + assignment_text(param, value);
+      run.setting.name += (p == 0 ? "" : ", ") + name_of_value(param, value);
       run.variant.params.push_back({param.name, value});
     }
     if (at.size() == 1) {

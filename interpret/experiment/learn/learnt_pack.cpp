@@ -17,7 +17,7 @@ using rules::json_number;
 using rules::json_string;
 
 /// "0.6 m", as a pack states it.
-std::string value_text(const RuleBase& rules, const std::string& param, double value) {
+std::string text_of_value(const RuleBase& rules, const std::string& param, double value) {
   const std::string text = to_string(ParamValue{param, value}, rules);
   return text.substr(text.find('=') + 2);
 }
@@ -36,7 +36,7 @@ std::string reason_of(const Learnt& learnt, const LearntParam& param, const Rule
   return fmt::format(
       "learnt from {}, {} before: {} {:.4f} more with it (95 %: {}), changed this way in {} of {} "
       "folds",
-      counted(learnt.samples, "building"), value_text(rules, param.value.name, param.before),
+      counted(learnt.samples, "building"), text_of_value(rules, param.value.name, param.before),
       learnt.objective, param.gain, interval_text(param.interval), param.folds, learnt.folds);
 }
 
@@ -80,7 +80,7 @@ std::string learnt_pack(const Learnt& learnt, const RuleBase& rules, const std::
   text += "\nparams:\n";
   for (const LearntParam& param : learnt.params)
     text += fmt::format("  {}: {{value: {}, why: \"{}\"}}\n", param.value.name,
-                        value_text(rules, param.value.name, param.value.value),
+                        text_of_value(rules, param.value.name, param.value.value),
                         reason_of(learnt, param, rules));
   return text;
 }
@@ -90,7 +90,7 @@ std::string to_text(const Learnt& learnt, const RuleBase& rules) {
   for (const LearntParam& param : learnt.params)
     text += fmt::format("{} -> {}: {} {:+.4f} (95 %: {}), in {} of {} folds\n",
                         to_string(ParamValue{param.value.name, param.before}, rules),
-                        value_text(rules, param.value.name, param.value.value), learnt.objective,
+                        text_of_value(rules, param.value.name, param.value.value), learnt.objective,
                         param.gain, interval_text(param.interval), param.folds, learnt.folds);
   if (learnt.params.empty()) text += "the pack stays as it is: " + learnt.reason + "\n";
   text += fmt::format("{} on {}: {:.4f} before, {:.4f} after\n", learnt.objective,

@@ -51,7 +51,7 @@ Outcome run_experiment_in(const Folder& folder, const std::string& out,
   return run(words);
 }
 
-std::size_t lines_with(const std::string& text, const std::string& part) {
+std::size_t count_lines_with(const std::string& text, const std::string& part) {
   return static_cast<std::size_t>(std::ranges::count_if(
       lines_of(text),
       [&](const std::string& line) { return line.find(part) != std::string::npos; }));
@@ -83,8 +83,8 @@ TEST_SUITE("cli/experiment") {
     CHECK(results.size() >= 5);
     CHECK(results == results_in(folder / "second"));
     const std::string csv = bytes_of(folder / "first/results.csv");
-    CHECK(lines_with(csv, "widest_window = 6 m") > 1);
-    CHECK(lines_with(csv, "compare,samples,residential,narrow") > 1);
+    CHECK(count_lines_with(csv, "widest_window = 6 m") > 1);
+    CHECK(count_lines_with(csv, "compare,samples,residential,narrow") > 1);
     // Again into the same folder, with all that is kept there.
     REQUIRE(run_experiment_in(folder, "first", {"--resume"}).exit == 0);
     CHECK(results == results_in(folder / "first"));
@@ -142,7 +142,7 @@ TEST_SUITE("cli/experiment") {
       const std::string row = "yes," + label + "," + counts["tp"].dump() + "," +
                               counts["fp"].dump() + "," + counts["fn"].dump();
       CAPTURE(row);
-      CHECK(lines_with(bytes_of(folder / "out/results.csv"), row) == 1);
+      CHECK(count_lines_with(bytes_of(folder / "out/results.csv"), row) == 1);
       ++compared;
     }
     CHECK(compared > 3);
@@ -222,8 +222,8 @@ TEST_SUITE("cli/experiment") {
     CAPTURE(first.err);
     REQUIRE(first.exit == 0);
     const std::string csv = bytes_of(folder / "first/results.csv");
-    CHECK(lines_with(csv, "learn,s,residential,learnt from the other buildings") > 3);
-    CHECK(lines_with(csv, "learning_curve,s,residential,2 buildings,buildings,2") > 3);
+    CHECK(count_lines_with(csv, "learn,s,residential,learnt from the other buildings") > 3);
+    CHECK(count_lines_with(csv, "learning_curve,s,residential,2 buildings,buildings,2") > 3);
     REQUIRE(run_experiment_in(folder, "second", {"-j", "2"}).exit == 0);
     CHECK(results_in(folder / "first") == results_in(folder / "second"));
   }
