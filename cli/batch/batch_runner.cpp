@@ -150,7 +150,7 @@ bool BatchRunner::begin_status() {
   if (options_.status_stem.empty()) return true;
   PartialFiles::watch();
   if (options_.is_resumable) {
-    resume_.emplace(options_, rules_ != nullptr ? rules_->sha256() : "");
+    resume_.emplace(options_, recipe_sha256());
     if (const auto finished = resume_->finished()) {
       was_done_ = true;
       state_.code = static_cast<ExitCode>(*finished);

@@ -183,10 +183,10 @@ std::string program_sha256() {
   return sha256;
 }
 
-Resume::Resume(const RunOptions& options, const std::string& rules_sha256)
+Resume::Resume(const RunOptions& options, const std::string& settings)
     : options_(options),
       journal_(options.status_stem + ".journal"),
-      command_sha256_(sha256(command_line() + rules_sha256 + program_sha256())) {
+      command_sha256_(sha256(command_line() + settings + program_sha256())) {
   PartialFiles::keep();
   state_ = journal_.load();
   if (!state_) return;
@@ -197,7 +197,7 @@ Resume::Resume(const RunOptions& options, const std::string& rules_sha256)
     throw damaged_journal(path());
   }
   if (state.command != command_sha256_)
-    throw not_the_same(path(), "belongs to another command, program or rule pack");
+    throw not_the_same(path(), "belongs to another command, program, rule pack or corrections");
   position_ = std::move(state.position);
   if (!PartialFiles::restore(state.files))
     throw not_the_same(path(), "lists outputs that no longer exist");

@@ -82,9 +82,11 @@ InputError damaged_journal(const std::string& path);
 /// PATH.partial and come to their place by rename.
 class Resume {
  public:
-  /// `rules_sha256` and the command line say whether it is the same run. Throws InputError E117 if
-  /// the journal is that of another command or damaged, or the outputs that it names are not there.
-  Resume(const RunOptions& options, const std::string& rules_sha256);
+  /// `settings` (hashes of all that a result depends on besides input and program) and the command
+  /// line say whether it is the same run. Throws
+  /// InputError E117 if the journal is that of another command or damaged, or the outputs that it
+  /// names are not there.
+  Resume(const RunOptions& options, const std::string& settings);
 
   /// What went before: empty for a run that begins.
   [[nodiscard]] const std::optional<nlohmann::ordered_json>& state() const { return state_; }

@@ -113,12 +113,22 @@ class FeatureMaker {
     throw InputError(std::move(issue));
   }
 
+  /// What rests on a fault of oriel's own (memory that was short, say) is neither kept nor
+  /// measured.
+  static void refuse_own_fault(const BuildingAtWork& done) {
+    if (done.fault->code != Code::E901) return;
+    Issue issue = *done.fault;
+    issue.place.building = done.building.id;
+    throw InputError(std::move(issue));
+  }
+
   void work() {
     for_each_(waiting_.size(), [&](std::size_t i) { make_features(waiting_[i], recipe_); });
     for (BuildingAtWork& done : waiting_) {
       if (!done.records.empty()) done.file->writer.append(std::string_view(done.records));
       KeptJson entry{{"id", done.building.id}};
       if (done.fault) {
+        refuse_own_fault(done);
         entry["code"] = to_string(done.fault->code);
         entry["fault"] = done.fault->sentence;
       }

@@ -50,6 +50,12 @@ Chart chart_of(const RunGroup& group, Chart::Kind kind, std::string y_title) {
 Chart lines_of(const RunGroup& group) {
   Chart chart = chart_of(group, Chart::Kind::lines, "macro-F1");
   chart.panels = panels_of_variables(group);
+  if (group.part == ExperimentPart::sweep) {
+    const std::vector<std::string> idle = variables_without_effect(group);
+    std::erase_if(chart.panels, [&](const ChartPanel& panel) {
+      return std::ranges::find(idle, panel.title) != idle.end();
+    });
+  }
   if (const MeasuredRun* baseline = group.baseline();
       baseline != nullptr && !std::isnan(baseline->mean->f1))
     chart.reference = baseline->mean->f1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -67,6 +68,37 @@ std::vector<RunGroup> groups_of(const std::vector<ResultRow>& rows) {
     for (const MeasuredRun& run : group.runs)
       if (run.mean == nullptr) throw std::invalid_argument("a run has no row of the mean");
   return groups;
+}
+
+namespace {
+
+std::tuple<std::size_t, std::size_t, std::size_t> counts_of(const ResultRow& row) {
+  return {row.counts.true_positives, row.counts.false_positives, row.counts.false_negatives};
+}
+
+bool has_same_counts(const MeasuredRun& a, const MeasuredRun& b) {
+  return counts_of(*a.mean) == counts_of(*b.mean) &&
+         std::ranges::equal(a.classes, b.classes, [](const ResultRow* one, const ResultRow* other) {
+           return one->label == other->label && counts_of(*one) == counts_of(*other);
+         });
+}
+
+}  // namespace
+
+std::vector<std::string> variables_without_effect(const RunGroup& group) {
+  std::vector<std::string> names;
+  std::map<std::string, const MeasuredRun*> first_of;
+  std::set<std::string> with_effect;
+  const MeasuredRun* baseline = group.baseline();
+  for (const MeasuredRun& run : group.runs) {
+    const std::string& name = run.setting().variable;
+    if (name.empty()) continue;
+    const auto [first, is_new] = first_of.try_emplace(name, baseline ? baseline : &run);
+    if (is_new) names.push_back(name);
+    if (!has_same_counts(*first->second, run)) with_effect.insert(name);
+  }
+  std::erase_if(names, [&](const std::string& name) { return with_effect.contains(name); });
+  return names;
 }
 
 const ResultRow* row_of(const MeasuredRun& run, const std::string& label) {

@@ -36,6 +36,10 @@ struct RunGroup {
 /// std::invalid_argument for a run without a row of the mean.
 std::vector<RunGroup> groups_of(const std::vector<ResultRow>& rows);
 
+/// The numbers that were varied, in the order of the rows, of which no run differs from the others
+/// in any class: they have no effect on that set.
+std::vector<std::string> variables_without_effect(const RunGroup& group);
+
 /// The row of a class in a run; null if it has none.
 const ResultRow* row_of(const MeasuredRun& run, const std::string& label);
 

@@ -10,6 +10,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::report {
 
@@ -61,9 +62,13 @@ ReportTable table_of_params(const RunGroup& group) {
   table.title = fmt::format("{}: single params", group.title());
   table.caption = "The best and the worst value of each param, all others as the pack says." +
                   intervals_sentence(group) + differences_sentence(group);
+  const std::vector<std::string> idle = variables_without_effect(group);
+  if (!idle.empty())
+    table.caption += fmt::format(" Without any effect here: {}.", fmt::join(idle, ", "));
   table.header = {"param", "best",  "macro-F1", "difference",
                   "p",     "worst", "macro-F1", "difference"};
   for (const auto& [name, runs] : by_variable(group)) {
+    if (std::ranges::find(idle, name) != idle.end()) continue;
     const MeasuredRun* best = *std::ranges::max_element(runs, {}, f1_of);
     const MeasuredRun* worst = *std::ranges::min_element(runs, {}, f1_of);
     table.rows.push_back({name, value_of(*best), f1_cell(*best->mean), difference_cell(*best->mean),

@@ -11,9 +11,9 @@ namespace oriel::report {
 inline constexpr std::size_t kMostRunsListed = 20;
 
 /// The tables of one group. Of a sweep of single params: a line a param with the best and the worst
-/// value. Of a sweep of several at once: the best runs. Of a comparison, and of what was learnt: a
-/// line a class, with each run. Of what else was varied: a line a run; of ablations the one that
-/// loses most first.
+/// value, and the names of those without effect. Of a sweep of several at once: the best runs. Of a
+/// comparison, and of what was learnt: a line a class, with each run. Of what else was varied: a
+/// line a run; of ablations the one that loses most first.
 std::vector<ReportTable> tables_of(const RunGroup& group);
 
 }  // namespace oriel::report

@@ -107,6 +107,19 @@ TEST_SUITE("cli") {
     CHECK(run(arguments).says("6 of 6 buildings labelled"));
   }
 
+  TEST_CASE("a run that is over is run again with other corrections") {
+    const Folder folder;
+    const std::string correction =
+        R"({"building": "cube-1", "feature": "none", "class": "door", "by": "ada", "why": "seen"})";
+    auto arguments = label(folder, folder.write("in.city.jsonl", city(5)));
+    arguments.insert(arguments.end(),
+                     {"--corrections", folder.write("c.jsonl", correction + "\n")});
+    CHECK(run(arguments).says("5 of 5 buildings labelled"));
+    CHECK(run(arguments).says("there is nothing left to do: the run was complete"));
+    folder.write("c.jsonl", replaced(correction, "cube-1", "cube-2") + "\n");
+    CHECK(run(arguments).says("5 of 5 buildings labelled"));
+  }
+
   TEST_CASE("a run that was killed while its files came to their places loses nothing") {
     const std::string text = with_broken_lines(city(120));
     const auto label_in = [&](const Folder& folder) {

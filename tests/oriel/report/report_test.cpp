@@ -43,7 +43,7 @@ TEST_SUITE("report") {
     const auto files = report_files(results);
     const std::string& csv = text_of(files, "results.csv");
     CHECK(count_of(csv, "\n") == results.rows.size() + 1);
-    CHECK(has(csv, "sweep,houses,residential,as the pack says,,,,yes,door,8,1,2,,0.9,0.9,0.85,"));
+    CHECK(has(csv, "sweep,houses,residential,as the pack says,,,,yes,door,8,9,2,,0.9,0.9,0.85,"));
     CHECK_FALSE(has(csv, "nan"));
   }
 
@@ -104,6 +104,27 @@ TEST_SUITE("report") {
     CHECK(has(text_of(files, "report.md"),
               "| parapet | 0.6 m | 0.895 \\[0.845, 0.945\\] | -0.005 \\[-0.035, +0.015\\] | "
               "0.020 | 1.1 m | 0.870 \\[0.820, 0.920\\] |"));
+  }
+
+  TEST_CASE("a param without any effect is named and not drawn") {
+    ExperimentResults results;
+    results.name = "sweep";
+    add_run(results, ExperimentPart::sweep, {"as it is", "", {}, "", true}, 0.9, 0.9);
+    for (const double value : {1., 2.}) {
+      const std::string text = std::to_string(value).substr(0, 1);
+      add_run(results, ExperimentPart::sweep, {"idle = " + text, "idle", value, "", false}, 0.9,
+              0.9);
+      add_run(results, ExperimentPart::sweep, {"busy = " + text, "busy", value, "", false}, 0.9,
+              0.8);
+    }
+    const auto files = report_files(results);
+    const std::string& page = text_of(files, "report.md");
+    CHECK(has(page, "Without any effect here: idle."));
+    CHECK_FALSE(has(page, "| idle |"));
+    CHECK(has(page, "| busy |"));
+    CHECK(has(text_of(files, "figures/sweep-houses.svg"), ">busy<"));
+    CHECK_FALSE(has(text_of(files, "figures/sweep-houses.svg"), ">idle<"));
+    CHECK(has(text_of(files, "results.csv"), "idle = 1"));
   }
 
   TEST_CASE("of ablations the one that loses most comes first after the pack itself") {
