@@ -15,11 +15,11 @@ cat > "$work/plots.yaml" <<END
 schema: oriel-experiment/1
 name: plots
 sets:
-  house:
-    models: $here/../../examples/samples/house.stripped.city.json
-    truth: $here/../../examples/samples/house.truth.json
+  samples:
+    models: $here/../../examples/samples/*.stripped.city.json
+    truth: $here/../../examples/samples/*.truth.json
 rules: residential
-sweep: {params: [parapet, step], values: 3}
+sweep: {params: [door_height, ledge_depth], values: 3}
 ablate: rules
 compare: {high parapet: {params: {parapet: 1.1 m}}}
 END
