@@ -64,8 +64,7 @@ TEST_SUITE("cli") {
     for (const char* lod : {"1.2", "1.3", "2.2"}) CHECK(solids_of({tile}, {"--lod", lod}) >= 208);
   }
 
-  TEST_CASE(
-      "what repair says is a solid is valid when it is read again: houses of the generator") {
+  TEST_CASE("what repair says is a solid is valid when it is read again: houses of the generator") {
     // With ORIEL_SLOW a thousand; CI takes fewer.
     const int count = std::getenv("ORIEL_SLOW") != nullptr ? 500 : 150;
     for (const double noise_mm : {0.0, 2.0}) {

@@ -108,8 +108,7 @@ TEST_SUITE("interpret/experiment") {
     for (const PlannedRun& run : runs) names.push_back(run.setting.name);
     std::ranges::sort(names);
     CHECK(std::ranges::adjacent_find(names) == names.end());
-    CHECK(runs_of({true, false, false, {}}, residential()).size() ==
-          residential().rule_count());
+    CHECK(runs_of({true, false, false, {}}, residential()).size() == residential().rule_count());
   }
 
   TEST_CASE("rows have the counts of all buildings and the difference from the baseline") {
