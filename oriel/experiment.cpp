@@ -2,6 +2,7 @@
 
 #include "interpret/params/with_params.h"
 #include "oriel/experiments/file_patterns.h"
+#include "oriel/experiments/paper_tables.h"
 #include "oriel/experiments/part_runner.h"
 #include "oriel/experiments/sample_set.h"
 
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,18 +59,38 @@ class ExperimentAtWork {
   Checked<ExperimentResults> run() {
     Checked<ExperimentResults> results;
     report_features_without_models(plan_, results.issues);
-    const auto rules = with_params(*plan_.rules.base, plan_.rules.params);
-    for (const Issue& issue : rules.issues)
-      results.issues.push_back(plan_.rules.spot.issue(issue.severity, issue.code, issue.sentence));
+    counted_ = hashed_files(plan_.count_as_paper, plan_, results.issues);
+    const auto rules = set_rules(results.issues);
     if (!has_errors(results.issues)) read_sets(results.issues);
     if (has_errors(results.issues)) return results;
     results.value.emplace(header());
     for (const ExperimentPart part : parts_of(plan_))
-      for (const SampleSet& set : sets_) add_part(part, set, *rules.value, results);
+      for (const SampleSet& set : sets_) add_part(part, set, *rules, results);
+    count(results);
     return results;
   }
 
  private:
+  /// Nothing where nothing is asked of rules, or with an error.
+  std::optional<RuleBase> set_rules(std::vector<Issue>& issues) const {
+    if (!plan_.rules.base) return std::nullopt;
+    auto rules = with_params(*plan_.rules.base, plan_.rules.params);
+    for (const Issue& issue : rules.issues)
+      issues.push_back(plan_.rules.spot.issue(issue.severity, issue.code, issue.sentence));
+    return std::move(rules.value);
+  }
+
+  void count(Checked<ExperimentResults>& results) {
+    if (counted_.empty()) return;
+    step("counts of the paper's tests", 0, counted_.size());
+    auto tables = paper_tables(counted_, pipeline_options(plan_.options, true), options_.for_each,
+                               results.issues);
+    if (has_errors(results.issues))
+      results.value.reset();
+    else
+      std::ranges::move(tables, std::back_inserter(results.value->tables));
+  }
+
   void read_sets(std::vector<Issue>& issues) {
     for (const SetPlan& plan : plan_.sets) {
       SampleSet& set = sets_.emplace_back();
@@ -163,7 +185,9 @@ class ExperimentAtWork {
       add_inputs("features", set.files.features, results);
       add_inputs("truth", set.files.truth, results);
     }
-    results.inputs.push_back({"pack", plan_.rules.pack, plan_.rules.base->sha256()});
+    add_inputs("models", counted_, results);
+    if (plan_.rules.base)
+      results.inputs.push_back({"pack", plan_.rules.pack, plan_.rules.base->sha256()});
     for (const ComparedPlan& compared : plan_.compare)
       if (std::ranges::find(results.inputs, compared.rules.pack, &ExperimentInput::path) ==
           results.inputs.end())
@@ -195,6 +219,8 @@ class ExperimentAtWork {
   FeatureStore features_;
   MeasuredStore measured_;
   std::vector<SampleSet> sets_;
+  /// Of which the paper's tests are counted.
+  std::vector<HashedFile> counted_;
 };
 
 }  // namespace
@@ -202,6 +228,7 @@ class ExperimentAtWork {
 std::vector<Issue> check_experiment(const ExperimentPlan& plan) {
   std::vector<Issue> issues;
   report_features_without_models(plan, issues);
+  files_of(plan.count_as_paper, plan.file, issues);
   for (const SetPlan& set : plan.sets) {
     std::vector<Issue> found;
     const SetFiles files = find_set_files(set, plan, found);
@@ -225,6 +252,7 @@ std::vector<std::string> files_of_experiment(const ExperimentPlan& plan) {
   for (const SetPlan& set : plan.sets)
     for (const auto* patterns : {&set.models, &set.features, &set.truth})
       std::ranges::move(files_of(*patterns, plan.file, ignored), std::back_inserter(files));
+  std::ranges::move(files_of(plan.count_as_paper, plan.file, ignored), std::back_inserter(files));
   return files;
 }
 

@@ -4,10 +4,12 @@
 #include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/feature_tables.h"
 #include "kernel/io/records/truth.h"
+#include "oriel/corrections.h"
 #include "oriel/score.h"
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -52,6 +54,7 @@ class SampleReader {
       sample->second.features = std::move(building);
       read[id] = &sample->second;
     }
+    for (const auto& [id, sample] : read) sample->boxes.resize(sample->features.table.rows());
     visit_feature_records(path, [&](const FeatureRecord& record) { add_box(record, read); });
   }
 
@@ -69,6 +72,19 @@ class SampleReader {
     }
   }
 
+  /// What people say is true, too.
+  void add_corrections(const Corrections& corrections) {
+    std::set<std::string> seen;
+    for (auto& [id, sample] : samples_) {
+      seen.insert(id);
+      const auto truth = truths_.find(id);
+      if (truth != truths_.end()) sample.truth = truth->second;
+      oriel::add_corrections(corrections, sample, issues_);
+      if (!sample.truth.empty()) truths_[id] = std::move(sample.truth);
+    }
+    add(corrections.unknown_buildings(seen));
+  }
+
   Checked<std::vector<Sample>> result() {
     std::vector<Sample> both;
     std::vector<std::string> without_truth, without_features;
@@ -79,7 +95,6 @@ class SampleReader {
         continue;
       }
       sample.truth = truth->second;
-      sample.boxes.resize(sample.features.table.rows());
       both.push_back(std::move(sample));
     }
     for (const auto& [id, objects] : truths_)
@@ -103,10 +118,8 @@ class SampleReader {
     if (found == read.end()) return;
     const FeatureId row = found->second->features.table.find(record.id);
     if (!row.is_valid()) return;
-    auto& boxes = found->second->boxes;
-    boxes.resize(found->second->features.table.rows());
     const auto& b = record.aabb_m;
-    boxes[row.index()] = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+    found->second->boxes[row.index()] = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
   }
 
   void report(std::size_t both, const std::vector<std::string>& without_truth,
@@ -140,10 +153,12 @@ class SampleReader {
 }  // namespace
 
 Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
-                                          std::span<const std::string> truths) {
+                                          std::span<const std::string> truths,
+                                          const Corrections* corrections) {
   SampleReader reader;
   for (const std::string& path : records) reader.read_records(path);
   for (const std::string& path : truths) reader.read_truth(path);
+  if (corrections != nullptr) reader.add_corrections(*corrections);
   return reader.result();
 }
 

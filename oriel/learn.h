@@ -7,6 +7,7 @@
 #include "interpret/experiment/learn/learnt_pack.h"   // IWYU pragma: export
 #include "interpret/experiment/learn/propose.h"       // IWYU pragma: export
 #include "interpret/experiment/sample.h"              // IWYU pragma: export
+#include "interpret/labelling/corrections.h"          // IWYU pragma: export
 #include "kernel/base/issue.h"
 
 #include <span>
@@ -21,7 +22,12 @@ namespace oriel {
 /// both features and truth, or a building occurs twice; else a warning
 /// about buildings without truth, which are left out, and about those without features, whose
 /// objects count as missed. Throws InputError for a file that cannot be read.
+///
+/// `corrections` (null: none) add to the truth (add_corrections): of a building without other truth
+/// they are all that is known. Issues are then also those of Corrections::find, and E153 for
+/// buildings that the records do not have.
 Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
-                                          std::span<const std::string> truths);
+                                          std::span<const std::string> truths,
+                                          const Corrections* corrections = nullptr);
 
 }  // namespace oriel

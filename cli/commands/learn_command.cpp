@@ -35,6 +35,7 @@ namespace fs = std::filesystem;
 struct LearnArguments {
   std::vector<std::string> records;
   std::vector<std::string> truth;
+  std::string corrections;
   std::string rules = "residential";
   std::string out;
   std::string objective = "macro_f1";
@@ -145,12 +146,23 @@ std::string proposals_text(const LearnArguments& arguments, const RuleBase& rule
          to_yaml(proposals, merged.value.value_or(""));
 }
 
+/// What people say against the rules, as far as it speaks of the pack's classes.
+Corrections corrections_of(const LearnArguments& arguments, const RuleBase& rules, Report& report) {
+  if (arguments.corrections.empty()) return {};
+  auto read = read_corrections(arguments.corrections);
+  report.add(read.issues);
+  if (!read.value) return {};
+  report.add(drop_unknown_classes(*read.value, rules.labels()));
+  return Corrections(*read.value);
+}
+
 ExitCode learn(const LearnArguments& arguments, Report& report) {
   const auto rules = load_rules({arguments.rules, {}}, report);
   if (!rules) return ExitCode::rules;
   const auto objective = objective_of(arguments, report);
   if (!objective) return ExitCode::input;
-  const auto samples = read_samples(arguments.records, arguments.truth);
+  const Corrections corrections = corrections_of(arguments, *rules, report);
+  const auto samples = read_samples(arguments.records, arguments.truth, &corrections);
   report.add(samples.issues);
   if (!samples.value) return ExitCode::input;
   LearnOptions options;
@@ -183,6 +195,7 @@ ExitCode learn(const LearnArguments& arguments, Report& report) {
 }
 
 ExitCode work(LearnArguments& arguments) {
+  if (arguments.truth.empty() && arguments.corrections.empty()) throw CLI::RequiredError("--truth");
   if (arguments.objective == "cost" && arguments.costs.empty())
     throw CLI::ValidationError("--objective", "cost needs --costs FILE");
   if (arguments.proposes && arguments.objective == "cost")
@@ -198,6 +211,7 @@ ExitCode work(LearnArguments& arguments) {
   for (const std::string& truth : arguments.truth) names.add_input("--truth", truth);
   names.add_input("--rules", arguments.rules);
   if (!arguments.costs.empty()) names.add_input("--costs", arguments.costs);
+  if (!arguments.corrections.empty()) names.add_input("--corrections", arguments.corrections);
   names.add_output("-o", arguments.out);
   names.check();
   check_folder(arguments);
@@ -246,10 +260,9 @@ void add_learn(CLI::App& app, Action& action) {
       ->add_option("records", arguments->records,
                    "Records of features, as segment or label --features writes them")
       ->required();
-  command
-      ->add_option("--truth", arguments->truth,
-                   "*.truth.json and *.truth.jsonl files, or folders of them")
-      ->required();
+  command->add_option("--truth", arguments->truth,
+                      "*.truth.json and *.truth.jsonl files, or folders of them");
+  add_corrections_argument(*command, arguments->corrections);
   command
       ->add_option("--rules", arguments->rules,
                    "Rule pack to start from: a file, or the name of a built-in pack")

@@ -25,14 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using IdsOfSet = std::set<std::string>;
 
-std::vector<HashedFile> hashed(const std::vector<FilePattern>& patterns, const ExperimentPlan& plan,
-                               std::vector<Issue>& issues) {
-  std::vector<HashedFile> files;
-  for (const std::string& path : files_of(patterns, plan.file, issues))
-    files.push_back({path, hash_of_file(path)});
-  return files;
-}
-
 void read_set_truth(const SetPlan& set, SetFiles& files, std::vector<Issue>& issues) {
   for (const HashedFile& file : files.truth) {
     const auto truths = read_truths(file.path);
@@ -219,6 +211,14 @@ void check_ids(const SetPlan& set, const SetFiles& files, const IdsOfSet& found,
 
 }  // namespace
 
+std::vector<HashedFile> hashed_files(const std::vector<FilePattern>& patterns,
+                                     const ExperimentPlan& plan, std::vector<Issue>& issues) {
+  std::vector<HashedFile> files;
+  for (const std::string& path : files_of(patterns, plan.file, issues))
+    files.push_back({path, hash_of_file(path)});
+  return files;
+}
+
 std::string SetFiles::text() const {
   std::string text;
   for (const auto* list : {&models, &features, &truth})
@@ -230,9 +230,9 @@ std::string SetFiles::text() const {
 SetFiles find_set_files(const SetPlan& set, const ExperimentPlan& plan,
                         std::vector<Issue>& issues) {
   SetFiles files;
-  files.models = hashed(set.models, plan, issues);
-  files.features = hashed(set.features, plan, issues);
-  files.truth = hashed(set.truth, plan, issues);
+  files.models = hashed_files(set.models, plan, issues);
+  files.features = hashed_files(set.features, plan, issues);
+  files.truth = hashed_files(set.truth, plan, issues);
   read_set_truth(set, files, issues);
   report_old_features(set, files, issues);
   return files;

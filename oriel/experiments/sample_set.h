@@ -26,6 +26,10 @@ struct SetFiles {
   [[nodiscard]] std::string text() const;
 };
 
+/// The files that patterns name (files_of), with their hashes.
+std::vector<HashedFile> hashed_files(const std::vector<FilePattern>& patterns,
+                                     const ExperimentPlan& plan, std::vector<Issue>& issues);
+
 /// Finds, hashes and reads the files of a set, but for its models and features. What is wrong is
 /// added to `issues`; with an error among them nothing is to be measured.
 SetFiles find_set_files(const SetPlan& set, const ExperimentPlan& plan, std::vector<Issue>& issues);

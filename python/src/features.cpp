@@ -42,7 +42,12 @@ FeatureSet features_of(const Results& results) {
     for (const Feature& feature : result.segmentation->features)
       rows->back().push_back({feature.box.moved(one->building().frame.origin_m),
                               id_or_none(table, feature.parent), id_or_none(table, feature.host),
-                              feature.source_polygons});
+                              feature.source_polygons, "", ""});
+    for (const LabelCorrection& correction : result.corrections) {
+      StoredRow& row = rows->back().at(correction.before.feature.index());
+      row.corrected_by = correction.by;
+      row.corrected_why = correction.why;
+    }
     set.labels.push_back(result.interpretation);
     set.labels.back().issues.clear();
   }
@@ -93,10 +98,9 @@ FeatureSet read_features(const std::string& path) {
     const auto& b = record.aabb_m;
     has_labels = has_labels || record.score.has_value();
     take_verdict(record, row, set.labels[building->second]);
-    (*rows)[building->second][row.index()] = {{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}},
-                                              record.parent,
-                                              record.host,
-                                              std::move(record.source_polygons)};
+    (*rows)[building->second][row.index()] = {
+        {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}}, record.parent,       record.host,
+        std::move(record.source_polygons),        record.corrected_by, record.corrected_why};
   });
   if (!has_labels) set.labels.assign(buildings->size(), {});
   set.buildings = std::move(buildings);
@@ -149,17 +153,12 @@ std::vector<RecordValue> values_of(const FeatureTable& table, FeatureId row) {
   return values;
 }
 
-/// Relations that records have: host is a field of its own.
-bool is_recorded(const RelationKind& relation) { return relation.name != "host"; }
-
-void describe_record(const DescribedBuilding& building, FeatureId row, FeatureRecord& record) {
-  record.attributes = values_of(building.table, row);
-  for (const RelationKind& relation : relation_schema()) {
-    if (!is_recorded(relation)) continue;
-    record.relations.emplace_back();
-    for (const FeatureId other : building.graph.others(relation.name, row))
-      record.relations.back().push_back(building.table.id(other));
-  }
+/// Who corrected a feature, or why; empty where nobody did.
+std::string correction_part(const FeatureSet& set, std::size_t b, std::size_t i,
+                            std::string StoredRow::*part) {
+  const auto& verdicts = set.labels[b].verdicts;
+  const bool is_corrected = !verdicts.empty() && verdicts[i].rule.text() == kCorrectedRule;
+  return is_corrected ? (*set.rows)[b][i].*part : std::string();
 }
 
 /// Calls visit(building, row) for each feature of the set.
@@ -229,6 +228,12 @@ std::optional<std::vector<std::string>> texts_named(const FeatureSet& set,
   if (name == "label") return verdict_text(&Verdict::label);
   if (name == "rule") return verdict_text(&Verdict::rule);
   if (name == "runner_up") return verdict_text(&Verdict::runner_up);
+  const auto corrected_text = [&](std::string StoredRow::*part) {
+    return text_column(
+        set, [&](std::size_t b, std::size_t i) { return correction_part(set, b, i, part); });
+  };
+  if (name == "corrected_by") return corrected_text(&StoredRow::corrected_by);
+  if (name == "corrected_why") return corrected_text(&StoredRow::corrected_why);
   if (name == "parent") return row_text(&StoredRow::parent);
   if (name == "host") return row_text(&StoredRow::host);
   if (name == "groups")
@@ -376,11 +381,14 @@ std::vector<FeatureRecord> records_of(const FeatureSet& set, std::size_t buildin
     record.aabb_m = {row.box.min.x, row.box.min.y, row.box.min.z,
                      row.box.max.x, row.box.max.y, row.box.max.z};
     record.source_polygons = row.source_polygons;
-    if (is_whole) describe_record(described, row_id(i), record);
+    if (is_whole) record.attributes = values_of(described.table, row_id(i));
+    record.corrected_by = correction_part(set, building, i, &StoredRow::corrected_by);
+    record.corrected_why = correction_part(set, building, i, &StoredRow::corrected_why);
     if (has_labels)
       set_verdict(record, labels.verdicts[i], std::move(groups[i]), is_whole ? parts[i] : "");
     if (is_whole) record.name = std::move(names[i]);
   }
+  if (is_whole) set_relations(records, described.table, described.graph);
   return records;
 }
 

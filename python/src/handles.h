@@ -110,6 +110,7 @@ struct StoredRow {
   Box box;
   std::string parent, host;
   std::vector<int> source_polygons;
+  std::string corrected_by, corrected_why;
 };
 
 /// Features of buildings, with labels or without, apart from their geometry.

@@ -1,6 +1,10 @@
 #include "tests/cli/command.h"
 
+#include <fstream>
 #include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 using namespace oriel::test;
 
@@ -16,6 +20,18 @@ std::string samples_labelled(const Folder& folder) {
 
 std::string truth_of(const std::string& name) {
   return std::string(ORIEL_SOURCE_DIR) + "/examples/samples/" + name + ".truth.json";
+}
+
+/// The id of the first feature of a building with that label.
+std::string first_id_of(const std::string& records, const std::string& building,
+                        const std::string& label) {
+  std::ifstream file(records);
+  for (std::string line; std::getline(file, line);) {
+    const auto record = nlohmann::json::parse(line);
+    if (record["building"] == building && record["label"] == label) return record["id"];
+  }
+  FAIL("no such feature");
+  return {};
 }
 
 }  // namespace
@@ -47,6 +63,28 @@ TEST_SUITE("cli") {
           bytes_of(folder / "two.yaml").substr(bytes_of(folder / "two.yaml").find("extends")));
     CHECK(run({"rules", "check", folder / "one.yaml"}).exit == 0);
     CHECK(one.out.find("held-out folds") != std::string::npos);
+  }
+
+  TEST_CASE("learn takes corrections for truth where there is no other") {
+    const Folder folder;
+    const std::string records = samples_labelled(folder);
+    const auto learn_with = [&](Words more) {
+      Words words{"learn", records, "--leave-one-out", "--restarts", "0"};
+      words.insert(words.end(), more.begin(), more.end());
+      return run(words);
+    };
+    CHECK(learn_with({}).exit == 2);
+    CHECK(learn_with({"--truth", truth_of("house")}).says("R282"));
+    const std::string corrections = folder.write(
+        "c.jsonl", R"({"building": "hip", "feature": ")" + first_id_of(records, "hip", "window") +
+                       R"(", "class": "window", "by": "ada", "why": "glass"})"
+                       "\n"
+                       R"({"building": "barn", "feature": "f1", "class": "window"})"
+                       "\n");
+    const Outcome both = learn_with({"--truth", truth_of("house"), "--corrections", corrections});
+    CHECK(both.exit == 0);
+    CHECK(both.says("E153"));
+    CHECK(both.out.find("2 buildings") != std::string::npos);
   }
 
   TEST_CASE("learn writes nothing where it cannot learn") {

@@ -71,7 +71,7 @@ struct SegmentationPlan {
 struct RulesPlan {
   /// As the file names it.
   std::string pack;
-  /// Missing only in a plan with errors.
+  /// Missing only in a plan with errors, and where nothing is asked of rules.
   std::optional<RuleBase> base;
   std::vector<ParamValue> params;
   PlanSpot spot;
@@ -164,6 +164,8 @@ struct ExperimentPlan {
   std::optional<StabilityPlan> stability;
   std::optional<LearnPlan> learning_curve;
   std::optional<LearnPlan> learn;
+  /// Models of which the paper's tests are counted.
+  std::vector<FilePattern> count_as_paper;
 };
 
 /// The most runs that a part may have.

@@ -19,13 +19,15 @@ using rules::YamlNode;
 using rules::YamlSection;
 
 constexpr const char* kExperimentSchema = "oriel-experiment/1";
+/// What rules are measured by; `count_as_paper` asks nothing of them.
 constexpr const char* kExperimentParts[] = {"sweep",     "ablate",         "compare",
                                             "stability", "learning_curve", "learn"};
 
 const std::vector<std::string>& plan_keys() {
   static const std::vector<std::string> keys = {
-      "schema",  "name",  "about",  "seed",    "bootstrap", "sets",           "rules",
-      "options", "sweep", "ablate", "compare", "stability", "learning_curve", "learn"};
+      "schema",  "name",      "about",          "seed",  "bootstrap",
+      "sets",    "rules",     "options",        "sweep", "ablate",
+      "compare", "stability", "learning_curve", "learn", "count_as_paper"};
   return keys;
 }
 
@@ -48,9 +50,15 @@ void read_whole_plan(const YamlNode& root, PlanReader& reader) {
   YamlSection top(root, "an experiment", plan_keys(), reader.findings);
   if (!top.is_map()) return;
   read_plan_header(top, reader);
-  if (const YamlNode* sets = top.require("sets")) rules::read_plan_sets(*sets, reader);
+  const YamlNode* counted = top.find("count_as_paper");
+  reader.plan.count_as_paper = rules::read_plan_patterns(counted, "'count_as_paper'", reader);
+  const bool asks_rules = std::ranges::any_of(
+      kExperimentParts, [&](const char* part) { return top.find(part) != nullptr; });
+  const bool needs_sets = asks_rules || counted == nullptr;
+  const auto find = [&](const char* key) { return needs_sets ? top.require(key) : top.find(key); };
+  if (const YamlNode* sets = find("sets")) rules::read_plan_sets(*sets, reader);
   // The parts speak of the pack's params.
-  if (const YamlNode* own = top.require("rules")) rules::read_plan_rules(*own, reader);
+  if (const YamlNode* own = find("rules")) rules::read_plan_rules(*own, reader);
   if (const YamlNode* options = top.find("options"))
     rules::read_plan_options(*options, reader.plan.options, reader);
   if (const YamlNode* sweep = top.find("sweep")) rules::read_plan_sweep(*sweep, reader);
@@ -61,11 +69,10 @@ void read_whole_plan(const YamlNode& root, PlanReader& reader) {
   if (const YamlNode* curve = top.find("learning_curve"))
     rules::read_plan_learning(*curve, true, reader);
   if (const YamlNode* learn = top.find("learn")) rules::read_plan_learning(*learn, false, reader);
-  if (std::ranges::none_of(kExperimentParts,
-                           [&](const char* part) { return top.find(part) != nullptr; }))
+  if (needs_sets && !asks_rules)
     reader.findings.error(Code::R287, root.span,
                           "nothing is measured: add sweep, ablate, compare, stability, "
-                          "learning_curve or learn");
+                          "learning_curve, learn or count_as_paper");
 }
 
 }  // namespace

@@ -43,6 +43,9 @@ class QuantityReader {
 };
 
 void read_plan_sets(const YamlNode& node, PlanReader& reader);
+/// A pattern of files, or a list of them; none if `node` is null.
+std::vector<FilePattern> read_plan_patterns(const YamlNode* node, const std::string& what,
+                                            PlanReader& reader);
 void read_plan_rules(const YamlNode& node, PlanReader& reader);
 void read_plan_options(const YamlNode& node, SegmentationPlan& options, PlanReader& reader);
 void read_plan_sweep(const YamlNode& node, PlanReader& reader);

@@ -9,7 +9,8 @@ constexpr const char* kExperimentJsonSchema = R"json({
   "$id": "urn:oriel:schema:oriel-experiment-1",
   "title": "oriel-experiment/1 experiment on rules",
   "type": "object",
-  "required": ["schema", "name", "sets", "rules"],
+  "required": ["schema", "name"],
+  "anyOf": [{"required": ["sets", "rules"]}, {"required": ["count_as_paper"]}],
   "additionalProperties": false,
   "defaultSnippets": [
     {
@@ -70,7 +71,8 @@ constexpr const char* kExperimentJsonSchema = R"json({
     },
     "stability": {"$ref": "#/definitions/stability", "description": "the buildings are disturbed"},
     "learning_curve": {"$ref": "#/definitions/learning_curve", "description": "params are learnt from growing numbers of buildings"},
-    "learn": {"$ref": "#/definitions/learn", "description": "params are learnt, and measured on other buildings"}
+    "learn": {"$ref": "#/definitions/learn", "description": "params are learnt, and measured on other buildings"},
+    "count_as_paper": {"$ref": "#/definitions/texts", "description": "patterns of models of which the tests of the paper's algorithm are counted"}
   },
   "definitions": {
     "quantity": {"type": ["string", "number"], "description": "a number with its unit, such as 0.6 m"},

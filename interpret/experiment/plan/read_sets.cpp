@@ -11,15 +11,6 @@ namespace oriel::rules {
 
 namespace {
 
-std::vector<FilePattern> read_patterns(const YamlNode* node, const std::string& what,
-                                       PlanReader& reader) {
-  std::vector<FilePattern> patterns;
-  if (node == nullptr) return patterns;
-  for (const YamlNode* text : texts_of(*node, what, reader.findings))
-    patterns.push_back({text->text, reader.spot(text->span)});
-  return patterns;
-}
-
 void read_folds(const YamlNode& node, SplitPlan& split, PlanReader& reader) {
   split.kind = SplitPlan::Kind::folds;
   split.folds = read_count(node, "'folds'", 2, reader.findings).value_or(2);
@@ -69,9 +60,9 @@ void read_set(const YamlEntry& entry, PlanReader& reader) {
     reader.findings.error(
         Code::R210, entry.key.span,
         "a set needs 'models', which are segmented, or 'features', which are stored (or both)");
-  set.models = read_patterns(models, "'models'", reader);
-  set.features = read_patterns(features, "'features'", reader);
-  set.truth = read_patterns(section.require("truth"), "'truth'", reader);
+  set.models = read_plan_patterns(models, "'models'", reader);
+  set.features = read_plan_patterns(features, "'features'", reader);
+  set.truth = read_plan_patterns(section.require("truth"), "'truth'", reader);
   if (const YamlNode* semantics = section.find("semantics"))
     set.ignores_semantics =
         read_word(*semantics, "'semantics'", {"ignored", "kept"}, reader.findings) != "kept";
@@ -80,6 +71,15 @@ void read_set(const YamlEntry& entry, PlanReader& reader) {
 }
 
 }  // namespace
+
+std::vector<FilePattern> read_plan_patterns(const YamlNode* node, const std::string& what,
+                                            PlanReader& reader) {
+  std::vector<FilePattern> patterns;
+  if (node == nullptr) return patterns;
+  for (const YamlNode* text : texts_of(*node, what, reader.findings))
+    patterns.push_back({text->text, reader.spot(text->span)});
+  return patterns;
+}
 
 void read_plan_sets(const YamlNode& node, PlanReader& reader) {
   if (!expect_map(node, "'sets'", reader.findings)) return;

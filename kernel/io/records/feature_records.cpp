@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -100,22 +101,20 @@ bool may_be_of_classes(std::string_view relation) {
   return relation == "same_facade" || relation == "same_storey" || relation == "alike";
 }
 
-/// The class of each feature, those of one feature left out and the others numbered anew.
+/// The class of each feature, those of one feature left out and the others numbered anew, by their
+/// first features.
 std::vector<std::optional<detail::RelationClass>> relation_classes(
     const std::vector<int>& class_of_row) {
-  std::vector<int> sizes, numbers;
-  for (const int number : class_of_row) {
-    if (number < 0) continue;
-    sizes.resize(std::max(sizes.size(), static_cast<std::size_t>(number) + 1));
-    ++sizes[static_cast<std::size_t>(number)];
-  }
+  std::map<int, int> sizes, numbers;
+  for (const int number : class_of_row) ++sizes[number];
   int count = 0;
-  for (const int size : sizes) numbers.push_back(size > 1 ? ++count : 0);
   std::vector<std::optional<detail::RelationClass>> classes;
   for (const int number : class_of_row) {
-    const auto at = static_cast<std::size_t>(number);
     classes.emplace_back();
-    if (number >= 0 && sizes[at] > 1) classes.back() = {numbers[at], sizes[at]};
+    if (number < 0 || sizes[number] < 2) continue;
+    const auto [place, is_new] = numbers.try_emplace(number, count + 1);
+    if (is_new) ++count;
+    classes.back() = {place->second, sizes[number]};
   }
   return classes;
 }
@@ -217,11 +216,17 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     record.attributes = attributes_of(table, row);
     records.push_back(std::move(record));
   }
-  for (const RelationKind& relation : detail::recorded_relations())
-    add_relation(table, graph, relation.name, records);
+  set_relations(records, table, graph);
   if (interpretation != nullptr) set_verdicts(records, segmentation, table, *interpretation);
   set_names(records);
   return records;
+}
+
+void set_relations(std::vector<FeatureRecord>& records, const FeatureTable& table,
+                   const FeatureGraph& graph) {
+  for (FeatureRecord& record : records) record.relations.clear();
+  for (const RelationKind& relation : detail::recorded_relations())
+    add_relation(table, graph, relation.name, records);
 }
 
 void set_names(std::span<FeatureRecord> records) {

@@ -70,6 +70,11 @@ std::vector<FeatureRecord> feature_records(const Building& building,
                                            const FeatureTable& table, const FeatureGraph& graph,
                                            const Interpretation* interpretation);
 
+/// Sets what the features of one building are related to; the records are those of all its
+/// features, in their order.
+void set_relations(std::vector<FeatureRecord>& records, const FeatureTable& table,
+                   const FeatureGraph& graph);
+
 /// Puts a verdict, the ids of its groups and of what it is a part of into a record in place of what
 /// it says.
 void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups,

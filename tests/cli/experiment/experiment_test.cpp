@@ -90,6 +90,30 @@ TEST_SUITE("cli/experiment") {
     CHECK(results == results_in(folder / "first"));
   }
 
+  TEST_CASE("an experiment counts the paper's tests without sets and rules") {
+    const Folder folder;
+    folder.write("e.yaml", "schema: oriel-experiment/1\nname: f\ncount_as_paper: " +
+                               (kSamples / "figure5.city.json").string() + "\n");
+    REQUIRE(run_experiment_in(folder, "out").exit == 0);
+    const std::string page = bytes_of(folder / "out/report.md");
+    CHECK(page.find("The body has 34 planes.") != std::string::npos);
+    for (const char* combinations : {"34", "561", "5984", "46376"})
+      CHECK(page.find(std::string("| ") + combinations + " |") != std::string::npos);
+    CHECK(count_lines_with(bytes_of(folder / "out/results.csv"), "") == 1);
+    CHECK(bytes_of(folder / "out/manifest.json").find("figure5.city.json") != std::string::npos);
+    folder.write("cube.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    folder.write("e.yaml",
+                 "schema: oriel-experiment/1\nname: open\ncount_as_paper: [cube.off, none.off]\n");
+    const Outcome wrong = run_experiment_in(folder, "none");
+    CHECK(wrong.exit == 4);
+    CHECK(wrong.says("R280"));
+    CHECK_FALSE(fs::exists(folder / "none/report.md"));
+    folder.write("e.yaml", "schema: oriel-experiment/1\nname: open\ncount_as_paper: cube.off\n");
+    const Outcome open = run_experiment_in(folder, "open");
+    CHECK(open.exit == 3);
+    CHECK(open.says("is no solid, so that nothing is counted"));
+  }
+
   TEST_CASE("a run that was killed goes on where it was and gives the same bytes") {
     const Folder folder;
     folder.write("e.yaml", experiment_on_samples(kSections));
@@ -244,7 +268,7 @@ TEST_SUITE("cli/experiment") {
 
   TEST_CASE("the schema of experiments is JSON with a description of every key") {
     const auto schema = nlohmann::json::parse(run({"experiment", "schema"}).out);
-    CHECK(schema["properties"].size() == 14);
+    CHECK(schema["properties"].size() == 15);
     for (const auto& [key, property] : schema["properties"].items())
       CHECK_MESSAGE((property.contains("description") || property.contains("const")), key);
   }
