@@ -165,10 +165,11 @@ TEST_SUITE("oriel") {
     // ORIEL_SLOW=1 is every twelfth file, ORIEL_SLOW=2 all. What is in faults/ is slow or wrong on
     // purpose.
     const std::string faults = (shared / "data" / "faults").string();
-    const std::size_t step = std::atoi(std::getenv("ORIEL_SLOW")) > 1 ? 1 : 12;
-    for (const std::string& file : every(step, inputs_in(shared / "data")))
+    const bool is_all = std::atoi(std::getenv("ORIEL_SLOW")) > 1;
+    for (const std::string& file : every(is_all ? 1 : 12, inputs_in(shared / "data")))
       if (!file.starts_with(faults)) compare(file);
-    compare((shared / "data/delfshaven/delfshaven.city.json").string());
+    // A district of 853 buildings takes longer than the others together.
+    if (is_all) compare((shared / "data/delfshaven/delfshaven.city.json").string());
   }
 
   TEST_CASE("library and command make the same series") {
