@@ -4,23 +4,24 @@
 /// each one function, and what is asked of the results: explain, score, validate. docs/library.md
 /// shows them at work.
 
-#include "oriel/corrections.h"  // IWYU pragma: export
-#include "oriel/count.h"        // IWYU pragma: export
-#include "oriel/experiment.h"   // IWYU pragma: export
-#include "oriel/explain.h"      // IWYU pragma: export
-#include "oriel/generalise.h"   // IWYU pragma: export
-#include "oriel/interpret.h"    // IWYU pragma: export
-#include "oriel/label.h"        // IWYU pragma: export
-#include "oriel/mesh.h"         // IWYU pragma: export
-#include "oriel/options.h"      // IWYU pragma: export
-#include "oriel/perturb.h"      // IWYU pragma: export
-#include "oriel/read.h"         // IWYU pragma: export
-#include "oriel/repair.h"       // IWYU pragma: export
-#include "oriel/result.h"       // IWYU pragma: export
-#include "oriel/rules.h"        // IWYU pragma: export
-#include "oriel/score.h"        // IWYU pragma: export
-#include "oriel/segment.h"      // IWYU pragma: export
-#include "oriel/series.h"       // IWYU pragma: export
-#include "oriel/stage.h"        // IWYU pragma: export
-#include "oriel/validate.h"     // IWYU pragma: export
-#include "oriel/write.h"        // IWYU pragma: export
+#include "oriel/corrections.h"             // IWYU pragma: export
+#include "oriel/experiments/count.h"       // IWYU pragma: export
+#include "oriel/experiments/experiment.h"  // IWYU pragma: export
+#include "oriel/experiments/learn.h"       // IWYU pragma: export
+#include "oriel/experiments/perturb.h"     // IWYU pragma: export
+#include "oriel/explain.h"                 // IWYU pragma: export
+#include "oriel/generalise.h"              // IWYU pragma: export
+#include "oriel/interpret.h"               // IWYU pragma: export
+#include "oriel/label.h"                   // IWYU pragma: export
+#include "oriel/mesh.h"                    // IWYU pragma: export
+#include "oriel/options.h"                 // IWYU pragma: export
+#include "oriel/read.h"                    // IWYU pragma: export
+#include "oriel/repair.h"                  // IWYU pragma: export
+#include "oriel/result.h"                  // IWYU pragma: export
+#include "oriel/rules.h"                   // IWYU pragma: export
+#include "oriel/score.h"                   // IWYU pragma: export
+#include "oriel/segment.h"                 // IWYU pragma: export
+#include "oriel/series.h"                  // IWYU pragma: export
+#include "oriel/stage.h"                   // IWYU pragma: export
+#include "oriel/validate.h"                // IWYU pragma: export
+#include "oriel/write.h"                   // IWYU pragma: export

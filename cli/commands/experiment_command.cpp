@@ -10,7 +10,7 @@
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
-#include "oriel/experiment.h"
+#include "oriel/experiments/experiment.h"
 
 #include <algorithm>
 #include <filesystem>

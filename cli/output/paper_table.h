@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/count.h"
+#include "oriel/experiments/count.h"
 
 #include <string>
 

@@ -7,7 +7,7 @@
 #include "kernel/io/reader.h"
 #include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/feature_tables.h"
-#include "oriel/perturb.h"
+#include "oriel/experiments/perturb.h"
 #include "oriel/segment.h"
 #include "oriel/write.h"
 

@@ -2,7 +2,7 @@
 
 #include "interpret/experiment/plan/experiment_plan.h"
 #include "interpret/experiment/results.h"
-#include "oriel/experiment.h"
+#include "oriel/experiments/experiment.h"
 #include "oriel/experiments/measured_store.h"
 #include "oriel/experiments/sample_set.h"
 

@@ -1,4 +1,4 @@
-#include "oriel/perturb.h"
+#include "oriel/experiments/perturb.h"
 
 #include "kernel/base/index.h"
 

@@ -1,4 +1,4 @@
-#include "oriel/learn.h"
+#include "oriel/experiments/learn.h"
 
 #include "kernel/base/counted.h"
 #include "kernel/io/records/feature_records.h"

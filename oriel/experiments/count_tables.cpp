@@ -1,5 +1,5 @@
 #include "kernel/base/counted.h"
-#include "oriel/count.h"
+#include "oriel/experiments/count.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "oriel/experiment.h"
+#include "oriel/experiments/experiment.h"
 
 #include "interpret/params/with_params.h"
 #include "oriel/experiments/file_patterns.h"

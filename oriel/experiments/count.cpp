@@ -1,4 +1,4 @@
-#include "oriel/count.h"
+#include "oriel/experiments/count.h"
 
 #include "kernel/segment/segment.h"
 
