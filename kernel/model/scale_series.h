@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/base/whole_point.h"
 #include "kernel/model/labelled_building.h"
 #include "kernel/model/vec3.h"
+#include "kernel/model/whole_point.h"
 
 #include <array>
 #include <cstdint>

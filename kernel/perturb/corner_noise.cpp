@@ -1,9 +1,9 @@
 #include "kernel/perturb/corner_noise.h"
 
 #include "kernel/base/index.h"
-#include "kernel/base/whole_point.h"
 #include "kernel/geometry/near_points.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/model/whole_point.h"
 #include "kernel/perturb/micrometres.h"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/base/whole_point.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/near_points.h"
+#include "kernel/model/whole_point.h"
 #include "kernel/solidify/shells/shells.h"
 #include "kernel/validate/validate_closely.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/base/whole_point.h"
 #include "kernel/model/vec3.h"
+#include "kernel/model/whole_point.h"
 
 #include <array>
 #include <cstdint>
