@@ -5,6 +5,7 @@
 /// of them here.
 #include "interpret/experiment/sample.h"
 #include "interpret/labelling/corrections.h"
+#include "kernel/io/records/corrections.h"  // IWYU pragma: export
 #include "oriel/result.h"
 #include "oriel/score.h"
 

@@ -9,6 +9,7 @@
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
+#include "oriel/corrections.h"
 #include "oriel/experiments/learn.h"
 #include "oriel/rules.h"
 

@@ -6,6 +6,7 @@
 #include "cli/terminal/option_values.h"
 #include "kernel/base/counted.h"
 #include "kernel/io/records/feature_records.h"
+#include "oriel/corrections.h"
 #include "oriel/score.h"
 
 #include <algorithm>

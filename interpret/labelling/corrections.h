@@ -2,7 +2,7 @@
 
 #include "interpret/score/score.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/records/corrections.h"
+#include "kernel/model/correction.h"
 #include "kernel/model/interpretation.h"
 #include "kernel/model/vec3.h"
 
