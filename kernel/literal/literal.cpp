@@ -17,9 +17,12 @@ namespace literal {
 namespace {
 
 constexpr int kMostPlanes = 4;
-/// Values and volumes that differ by no more are equal: a grid unit over a tenth of a metre, by
-/// which rounded vertices may move them.
-constexpr double kEqual = 1e-5;
+
+/// Within which values are compared (Tolerances).
+struct ValueLimits {
+  double value_rel = 0;
+  double tie_rel = 0;
+};
 
 /// Features of one test that are separated together.
 struct LiteralCandidate {
@@ -130,8 +133,8 @@ class ConnectedPieces {
 /// One recursion: the tests of one body.
 class Recursion {
  public:
-  Recursion(BodyView& body, const Heuristics& heuristics, double value_rel, Work& work)
-      : body_(body), heuristics_(heuristics), value_rel_(value_rel), work_(work) {}
+  Recursion(BodyView& body, const Heuristics& heuristics, ValueLimits limits, Work& work)
+      : body_(body), heuristics_(heuristics), limits_(limits), work_(work) {}
 
   /// The best of the valid features; nothing: the body is a leaf.
   std::optional<LiteralCandidate> run(LiteralStep& step) {
@@ -192,7 +195,8 @@ class Recursion {
       if (!has_all || (is_hole && !lump.has_reflex_edge)) continue;
       const double value =
           std::accumulate(lump.new_area_m2.begin(), lump.new_area_m2.end(), 0.0) / old_area_m2;
-      if (!heuristics_.values_below_one || value < 1 - value_rel_) valid.emplace_back(value, &lump);
+      if (!heuristics_.values_below_one || value < 1 - limits_.value_rel)
+        valid.emplace_back(value, &lump);
     }
     if (!valid.empty()) offer(candidate_of(std::move(valid), is_hole));
   }
@@ -201,8 +205,9 @@ class Recursion {
     // The first of equal ones has the lowest regions.
     std::ranges::stable_sort(valid, {}, [](const auto& v) { return v.first; });
     LiteralCandidate candidate{is_hole, static_cast<int>(chosen_.size()), valid[0].first, 0, {}};
+    const double most = candidate.value * (1 + std::max(limits_.tie_rel, limits_.value_rel));
     for (const auto& [value, lump] : valid) {
-      if (value > candidate.value * (1 + value_rel_) + kEqual) break;
+      if (value > most) break;
       candidate.volume_m3 += lump->volume_m3;
       candidate.lumps.push_back(std::move(*lump));
       if (!heuristics_.equal_features_together) break;
@@ -215,15 +220,16 @@ class Recursion {
   }
 
   /// Combinations come in the order of their planes, so the first of equals stays.
-  static bool is_better(const LiteralCandidate& a, const LiteralCandidate& b) {
-    if (std::abs(a.value - b.value) > kEqual) return a.value < b.value;
+  [[nodiscard]] bool is_better(const LiteralCandidate& a, const LiteralCandidate& b) const {
+    const double tie = 1 + limits_.tie_rel;
+    if (std::max(a.value, b.value) > std::min(a.value, b.value) * tie) return a.value < b.value;
     if (a.is_hole != b.is_hole) return a.is_hole;
-    return a.volume_m3 > b.volume_m3 * (1 + kEqual);
+    return a.volume_m3 > b.volume_m3 * tie;
   }
 
   BodyView& body_;
   const Heuristics& heuristics_;
-  double value_rel_;
+  ValueLimits limits_;
   Work& work_;
   LiteralStep* step_ = nullptr;
   bool is_tested_ = true;
@@ -235,11 +241,11 @@ class Recursion {
 class Literal {
  public:
   Literal(const PlaneArrangement& arrangement, const ConnectedPieces& pieces,
-          const Heuristics& heuristics, double value_rel, std::int64_t budget)
+          const Heuristics& heuristics, ValueLimits limits, std::int64_t budget)
       : arrangement_(arrangement),
         pieces_(pieces),
         heuristics_(heuristics),
-        value_rel_(value_rel),
+        limits_(limits),
         work_(budget) {}
 
   LiteralCount run(const Bits& solid) {
@@ -298,7 +304,7 @@ class Literal {
     if (std::vector<LiteralLump> cavities = view.cavities(); !cavities.empty())
       best = LiteralCandidate{true, 0, 0, 0, std::move(cavities)};
     else
-      best = Recursion(view, heuristics_, value_rel_, work_).run(step);
+      best = Recursion(view, heuristics_, limits_, work_).run(step);
     if (!best) return {};
     LiteralCut cut{std::move(*best), {}};
     for (const LiteralLump& lump : cut.candidate.lumps) cut.lumps.push_back(view.regions_of(lump));
@@ -320,7 +326,7 @@ class Literal {
   const PlaneArrangement& arrangement_;
   const ConnectedPieces& pieces_;
   const Heuristics& heuristics_;
-  double value_rel_;
+  ValueLimits limits_;
   Work work_;
   std::vector<LiteralBody> waiting_, bodies_;
   LiteralCount out_;
@@ -357,9 +363,9 @@ std::vector<LiteralCount> count_literally(const Solid& solid,
   const literal::Bits body = literal::regions_in(solid, *arrangement, work);
   if (work.is_used_up()) return counts;
   const literal::ConnectedPieces pieces(*arrangement);
+  const literal::ValueLimits limits{tolerances.value_rel, tolerances.tie_rel(solid.grid_m)};
   for (std::size_t i = 0; i < counts.size(); ++i)
-    counts[i] = literal::Literal(*arrangement, pieces, heuristics[i], tolerances.value_rel, budget)
-                    .run(body);
+    counts[i] = literal::Literal(*arrangement, pieces, heuristics[i], limits, budget).run(body);
   return counts;
 }
 

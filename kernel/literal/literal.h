@@ -73,9 +73,10 @@ struct LiteralCount {
 ///
 /// Where the paper is silent (docs/segmentation.md): a feature must have new area in each of its
 /// planes; the wall of a hole must hold a reflex edge of the body (without this a plain gabled
-/// house is filled up without end); values are compared with `tolerances.value_rel`; of equal
-/// values holes come first, then the larger volume, then the order of the planes; several lumps are
-/// separated first, then cavities, without a test; a body that came before on its path is a leaf.
+/// house is filled up without end); a value is below one, and features of one test are separated
+/// together, within `tolerances.value_rel`; of values that tie (Tolerances::tie_rel) holes come
+/// first, then the larger volume, then the order of the planes; several lumps are separated first,
+/// then cavities, without a test; a body that came before on its path is a leaf.
 ///
 /// `budget`: a step is a combination, or a look at a region of space in it. Same everywhere.
 ///

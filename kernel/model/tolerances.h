@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace oriel {
 
 /// The only tolerances of the kernel, one value passed to every stage. Everything else is decided
@@ -18,6 +20,14 @@ struct Tolerances {
   /// of the tree, and a value counts as below 1 only if it is below 1 − value_rel. Noise of 1 mm
   /// moves values by less.
   double value_rel = 0.01;
+
+  /// Values, or volumes, that differ by no more than this fraction are the same but for the grid:
+  /// what a corner that was put on it may move of the area of something a hundred times weld_m wide
+  /// (few parts are thinner), about 1e-5. On exact input, where value_rel is nothing, 1e-9: the
+  /// same number computed twice in doubles.
+  [[nodiscard]] double tie_rel(double grid_m) const {
+    return std::max(1e-9, std::min(value_rel, grid_m / (100 * weld_m)));
+  }
 };
 
 /// Facets that lean more than this from upright (the sine of 10 degrees) are no walls: where growth

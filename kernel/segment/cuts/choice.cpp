@@ -12,17 +12,6 @@ namespace oriel::detail {
 
 namespace {
 
-/// Values closer than this are the same number computed twice.
-constexpr double kSame = 1e-9;  // tolerance of doubles, no tolerance of the model
-
-/// How far apart values may be that are the same but for the grid: what a corner that was put on it
-/// may move of the area of something a hundred times weld_m wide, about 1e-5. On exact input, where
-/// value_rel is nothing, as far as doubles are.
-double tie_of(const Tolerances& tolerances, double grid_m) {
-  constexpr double kWidth = 100;  // times weld_m: few parts are thinner
-  return std::max(kSame, std::min(tolerances.value_rel, grid_m / (kWidth * tolerances.weld_m)));
-}
-
 /// No other one of some sorted values is the same.
 bool is_alone_in(std::span<const double> values, double value, double tie) {
   const auto first = std::ranges::lower_bound(values, value * (1 - tie));
@@ -65,7 +54,7 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, PlaneSide 
       own_planes_(std::move(own_planes)),
       stats_(stats),
       work_(work),
-      tie_(tie_of(options.tolerances, world_.points.grid_m())),
+      tie_(options.tolerances.tie_rel(world_.points.grid_m())),
       candidates_(body, options, free_side, own_planes_, stats, work),
       pockets_(body, free_side) {}
 
