@@ -3,7 +3,6 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/near_points.h"
 #include "kernel/model/tolerances.h"
-#include "kernel/model/whole_point.h"
 #include "kernel/perturb/micrometres.h"
 
 #include <algorithm>
@@ -14,10 +13,6 @@ namespace {
 
 /// Vertices closer than this are one corner: what solidify() welds by default.
 constexpr double kCorner_m = Tolerances{}.weld_m;
-
-MicrometrePoint micrometres_of(Vec3 p) {
-  return {{in_micrometres(p.x), in_micrometres(p.y), in_micrometres(p.z)}};
-}
 
 /// A number without unit: within -1…1, or of standard deviation 1 and within -6…6.
 double draw(NoiseKind kind, Random& random) {
@@ -40,7 +35,7 @@ Vec3 draw_offset(double noise_m, NoiseKind kind, Random& random) {
 std::vector<Vec3> corner_noise(const std::vector<Vec3>& vertices, double noise_m, NoiseKind kind,
                                Random random) {
   std::vector<MicrometrePoint> places;
-  for (const Vec3 p : vertices) places.push_back(micrometres_of(p));
+  for (const Vec3 p : vertices) places.push_back(in_micrometres(p));
   std::vector<MicrometrePoint> sorted = places;
   std::ranges::sort(sorted);
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
