@@ -2,6 +2,7 @@
 
 #include "kernel/base/issue.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -36,6 +37,17 @@ std::optional<std::size_t> find_non_utf8(std::string_view text);
 
 /// `text` without a byte order mark at its start.
 std::string_view without_bom(std::string_view text);
+
+/// Calls act(line, number) for each line of a text that is not blank; lines count from 1.
+template <class Act>
+void for_each_line(std::string_view text, Act act) {
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.find_first_not_of(" \t\r") != std::string_view::npos) act(line, number);
+  }
+}
 
 /// `text` as it may stand in a message: printable(), in single quotes, cut after 40 bytes.
 std::string in_quotes(std::string_view text);

@@ -128,16 +128,11 @@ bool visit_json_records(std::string_view text, const TextName& name, bool is_lin
       take_record((*root)[i], name, fmt::format("record {}: ", i), take, issues, columns);
     return true;
   }
-  TextName line{name.file, 0};
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view record = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line.line;
-    if (record.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+  for_each_line(text, [&](std::string_view record, int number) {
+    const TextName line{name.file, number};
     if (const auto object = parse_slowly(line, record, issues))
       take_record(*object, line, "", take, issues, columns);
-  }
+  });
   return true;
 }
 

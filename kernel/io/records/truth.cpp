@@ -2,9 +2,8 @@
 
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/json_check.h"
+#include "kernel/io/records/member_reader.h"
 
-#include <algorithm>
-#include <array>
 #include <string_view>
 #include <utility>
 
@@ -16,83 +15,21 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads the members of one object; the first that does not fit is kept as the finding.
-class MemberReader {
- public:
-  MemberReader(const json& object, std::string where) : object_(object), where_(std::move(where)) {}
-
-  [[nodiscard]] const std::optional<std::string>& fault() const { return fault_; }
-
-  /// A text; "" where it may be absent and is.
-  std::string text(const char* key, bool is_needed) {
-    const json* value = find(key, is_needed);
-    if (value == nullptr) return "";
-    if (value->is_string()) return value->get<std::string>();
-    fail(key, "a text");
-    return "";
-  }
-
-  std::vector<int> numbers(const char* key) {
-    const json* value = find(key, false);
-    std::vector<int> result;
-    if (value == nullptr) return result;
-    bool is_good = value->is_array();
-    for (std::size_t i = 0; is_good && i < value->size(); ++i) {
-      is_good = (*value)[i].is_number_integer();
-      if (is_good) result.push_back((*value)[i].get<int>());
-    }
-    if (!is_good) fail(key, "an array of whole numbers");
-    return result;
-  }
-
-  std::optional<Box> box(const char* key, bool is_needed) {
-    const json* value = find(key, is_needed);
-    if (value == nullptr) return std::nullopt;
-    std::array<double, 6> m{};
-    bool is_good = value->is_array() && value->size() == m.size();
-    for (std::size_t i = 0; is_good && i < m.size(); ++i) {
-      is_good = (*value)[i].is_number();
-      if (is_good) m[i] = (*value)[i].get<double>();
-    }
-    if (!is_good) fail(key, "six numbers");
-    return Box{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}};
-  }
-
-  std::optional<bool> yes_no(const char* key) {
-    const json* value = find(key, false);
-    if (value == nullptr) return std::nullopt;
-    if (value->is_boolean()) return value->get<bool>();
-    fail(key, "true or false");
-    return std::nullopt;
-  }
-
- private:
-  /// The member's value; null where it is absent or null.
-  const json* find(const char* key, bool is_needed) {
-    const auto found = object_.find(key);
-    if (found != object_.end() && !found->is_null()) return &*found;
-    if (is_needed && !fault_) fault_ = fmt::format("{} has no '{}'", where_, key);
-    return nullptr;
-  }
-
-  void fail(const char* key, const char* expected) {
-    if (!fault_) fault_ = fmt::format("'{}' of {} must be {}", key, where_, expected);
-  }
-
-  const json& object_;
-  std::string where_;
-  std::optional<std::string> fault_;
-};
+std::optional<Box> read_box(detail::MemberReader& reader, const char* key, bool is_needed) {
+  const auto m = reader.numbers<6>(key, is_needed, "six numbers");
+  if (!m) return std::nullopt;
+  return Box{{(*m)[0], (*m)[1], (*m)[2]}, {(*m)[3], (*m)[4], (*m)[5]}};
+}
 
 std::optional<std::string> read_object(const json& value, std::size_t number, TruthObject& object) {
   if (!value.is_object()) return fmt::format("object {} is {}", number, value.type_name());
-  MemberReader reader(value, fmt::format("object {}", number));
+  detail::MemberReader reader(value, fmt::format("object {}", number));
   object.id = reader.text("id", true);
   object.label = reader.text("class", true);
   object.subclass = reader.text("subclass", false);
-  object.aabb = reader.box("aabb", true).value_or(Box{});
-  object.feature_aabb = reader.box("feature_aabb", false);
-  object.faces = reader.numbers("faces");
+  object.aabb = read_box(reader, "aabb", true).value_or(Box{});
+  object.feature_aabb = read_box(reader, "feature_aabb", false);
+  object.faces = reader.whole_numbers("faces");
   object.is_detectable = reader.yes_no("detectable");
   return reader.fault();
 }
@@ -100,10 +37,10 @@ std::optional<std::string> read_object(const json& value, std::size_t number, Tr
 std::optional<std::string> read_root(const json& root, GroundTruth& truth) {
   if (!root.is_object() || !root.contains("objects") || !root["objects"].is_array())
     return "expected an object with the array 'objects'";
-  MemberReader reader(root, "the file");
+  detail::MemberReader reader(root, "the file");
   truth.building = reader.text("building", true);
   truth.dataset = reader.text("dataset", false);
-  truth.capped_faces = reader.numbers("capped_faces");
+  truth.capped_faces = reader.whole_numbers("capped_faces");
   if (reader.fault()) return reader.fault();
   const json& objects = root["objects"];
   for (std::size_t i = 0; i < objects.size(); ++i)
@@ -143,14 +80,9 @@ Checked<std::vector<GroundTruth>> read_truths(const std::string& path) {
     return result;
   }
   const std::string text = detail::Input(path).read_all();
-  std::string_view rest = detail::without_bom(text);
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view here = rest.substr(0, end);
-    if (here.find_first_not_of(" \t\r") != std::string_view::npos)
-      add(truth_of({path, line}, here));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+  detail::for_each_line(detail::without_bom(text), [&](std::string_view line, int number) {
+    add(truth_of({path, number}, line));
+  });
   if (!result.value && result.issues.empty())
     result.issues.push_back(detail::error_in({path, 0}, {Code::E102, "the file is empty"}));
   return result;

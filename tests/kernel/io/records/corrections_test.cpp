@@ -52,6 +52,14 @@ TEST_SUITE("kernel/io") {
       CHECK(read.issues[0].place.line == 2);
       CHECK(read.value->size() == 1);
     }
+    const auto sentence_of = [](const char* line) {
+      return corrections_in(line).issues.at(0).sentence;
+    };
+    CHECK(sentence_of(R"({"building":7,"feature":"f","class":"door"})") ==
+          "'building' of the correction must be a text");
+    CHECK(sentence_of(R"({"building":"h","feature":"f","class":""})") ==
+          "'class' of the correction is empty");
+    CHECK(sentence_of(R"({"building":"h","feature":"f"})") == "the correction has no 'class'");
     CHECK(codes_of(corrections_in("{\"building\"\n").issues).starts_with("E10"));
     CHECK(corrections_in("").value->empty());
     CHECK_THROWS_AS(read_corrections("/no/such.jsonl"), InputError);
