@@ -55,9 +55,9 @@ class TableBuilder {
   std::optional<std::string> add_attributes(const detail::RecordCells& cells);
   [[nodiscard]] FeatureTable make_table() const;
   FeatureGraph make_graph();
-  bool set_classes(const std::string& name, std::size_t relation, FeatureGraph& graph);
+  void set_relation(const std::string& name, std::size_t relation, FeatureGraph& graph);
   [[nodiscard]] std::string_view list_of(std::size_t row, std::size_t relation) const;
-  std::vector<FeatureGraph::Pair> make_pairs(std::size_t relation);
+  std::vector<FeatureGraph::Pair> pairs_of_ids(std::size_t relation);
   std::map<std::string_view, std::vector<FeatureId>> classes_in(std::size_t relation);
 
   Checked<std::vector<DescribedBuilding>>* result_;
@@ -139,7 +139,8 @@ std::string_view TableBuilder::list_of(std::size_t row, std::size_t relation) co
   return std::string_view(lists_).substr(begin, list_ends_[list] - begin);
 }
 
-/// The features of each class by its text. Those that are not in the file are counted.
+/// The features of each class of a recorded relation (1 …) by its text. Those that are not in the
+/// file are counted.
 std::map<std::string_view, std::vector<FeatureId>> TableBuilder::classes_in(std::size_t relation) {
   std::map<std::string_view, std::vector<FeatureId>> classes;
   for (std::size_t row = 0; row < rows_.size(); ++row)
@@ -154,15 +155,13 @@ std::map<std::string_view, std::vector<FeatureId>> TableBuilder::classes_in(std:
   return classes;
 }
 
-/// The pairs of the host (0) or of a recorded relation (1 …).
-std::vector<FeatureGraph::Pair> TableBuilder::make_pairs(std::size_t relation) {
+/// The pairs that lists of ids say: of the host (0), or where a recorded relation (1 …) says no
+/// class.
+std::vector<FeatureGraph::Pair> TableBuilder::pairs_of_ids(std::size_t relation) {
   std::vector<FeatureGraph::Pair> pairs;
-  for (const auto& [text, features] : classes_in(relation))
-    for (const FeatureId self : features)
-      for (const FeatureId other : features) pairs.emplace_back(self, other);
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const std::string_view ids = list_of(row, relation);
-    if (ids.starts_with(detail::kClassMark)) continue;
+    if (relation > 0 && ids.starts_with(detail::kClassMark)) continue;
     detail::for_each_part(ids, [&](std::string_view id) {
       const auto found = rows_.find(id);
       if (found != rows_.end())
@@ -176,33 +175,30 @@ std::vector<FeatureGraph::Pair> TableBuilder::make_pairs(std::size_t relation) {
 
 FeatureGraph TableBuilder::make_graph() {
   FeatureGraph graph;
-  graph.set("host", make_pairs(0));
-  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r) {
-    const std::string& name = detail::recorded_relations()[r].name;
-    if (!set_classes(name, r + 1, graph)) graph.set(name, make_pairs(r + 1));
-  }
+  graph.set("host", pairs_of_ids(0));
+  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
+    set_relation(detail::recorded_relations()[r].name, r + 1, graph);
   return graph;
 }
 
-/// Sets a relation of which every feature that has one has a class; else false.
-bool TableBuilder::set_classes(const std::string& name, std::size_t relation, FeatureGraph& graph) {
-  bool has_class = false;
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::string_view text = list_of(row, relation);
-    if (!text.empty() && !text.starts_with(detail::kClassMark)) return false;
-    has_class = has_class || !text.empty();
+/// Sets a recorded relation; without pairs of every class if all that is said are classes.
+void TableBuilder::set_relation(const std::string& name, std::size_t relation,
+                                FeatureGraph& graph) {
+  const auto classes = classes_in(relation);
+  std::vector<FeatureGraph::Pair> pairs = pairs_of_ids(relation);
+  if (pairs.empty()) {
+    std::vector<int> class_of_row(rows_.size(), -1);
+    int number = 0;
+    for (const auto& [text, features] : classes) {
+      for (const FeatureId feature : features) class_of_row[feature.index()] = number;
+      ++number;
+    }
+    return graph.set_classes(name, class_of_row);
   }
-  if (!has_class) return false;
-  classes_in(relation);  // counts those that are not in the file
-  std::vector<int> class_of_row;
-  std::map<std::string_view, int> numbers;
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::string_view text = list_of(row, relation);
-    const int next = static_cast<int>(numbers.size());
-    class_of_row.push_back(text.empty() ? -1 : numbers.try_emplace(text, next).first->second);
-  }
-  graph.set_classes(name, class_of_row);
-  return true;
+  for (const auto& [text, features] : classes)
+    for (const FeatureId self : features)
+      for (const FeatureId other : features) pairs.emplace_back(self, other);
+  graph.set(name, std::move(pairs));
 }
 
 void TableBuilder::finish() {

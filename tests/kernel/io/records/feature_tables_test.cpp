@@ -106,6 +106,15 @@ TEST_SUITE("kernel/io") {
     CHECK((*read.value)[0].graph.pairs("host").empty());
   }
 
+  TEST_CASE("a host is an id whatever it begins with") {
+    const auto read = tables_of("building,id,host\nh,#1,\nh,g,#1\nh,i,#2/3\n", "f.csv");
+    CHECK(codes_of(read.issues) == "E121");
+    CHECK(read.issues[0].sentence.find("'#2/3'") != std::string::npos);
+    const auto pairs = read.value->front().graph.pairs("host");
+    REQUIRE(pairs.size() == 1);
+    CHECK(pairs[0] == FeatureGraph::Pair(FeatureId{1}, FeatureId{0}));
+  }
+
   TEST_CASE("a second record of a feature is left out and so is one that cannot be read") {
     const auto read = tables_of("building,id,a_m\nh,f,1\nh,f,2\nh,g,wide\nh,i,3\n", "f.csv");
     CHECK(codes_of(read.issues) == "E111 E111");
