@@ -3,8 +3,11 @@
 ///   bench_experiment sweep RECORDS TRUTH PACK VALUES   every param with a range at so many values
 ///   bench_experiment ablate RECORDS TRUTH PACK         without each piece that can be left out
 ///   bench_experiment random RECORDS TRUTH PACK COUNT   so many settings, all params at random
-/// One line: samples, features, settings, seconds in all, microseconds a sample and setting, those
-/// of interpret() and score() for comparison, and bytes a feature above the features themselves.
+///   bench_experiment learn RECORDS TRUTH PACK FOLDS SEED [RESTARTS]
+///                              learns all params from values at random; seed 0: from the pack's
+/// One line, but for learn: samples, features, settings, seconds in all, microseconds a sample and
+/// setting, those of interpret() and score() for comparison, and bytes a feature above the features
+/// themselves.
 #include "bench/peak_memory.h"
 #include "bench/timing.h"
 #include "interpret/experiment/count_variants.h"
@@ -202,7 +205,7 @@ int main(int argc, char** argv) {
       ((what != "ablate" && !is_counted) || arguments.size() != (is_counted ? 4U : 3U))) {
     fmt::print(stderr,
                "usage: bench_experiment sweep|random RECORDS TRUTH PACK COUNT | ablate RECORDS "
-               "TRUTH PACK\n");
+               "TRUTH PACK | learn RECORDS TRUTH PACK FOLDS SEED [RESTARTS]\n");
     return 2;
   }
   return what == "learn" ? learn(arguments) : run(std::string(what), arguments);

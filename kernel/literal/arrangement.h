@@ -39,7 +39,7 @@ using RegionsAtEdge = std::vector<int>;
 /// Exact: vertices are rational points, and on which side of a plane one lies is decided by
 /// integers. Only areas and volumes are doubles.
 struct PlaneArrangement {
-  /// Each geometric plane once, in the orientation that it first has in Solid::planes.
+  /// Each geometric plane once, in the orientation of the first facet in it.
   std::vector<Plane> planes;
   std::vector<SpaceRegion> regions;
   std::vector<Partition> partitions;

@@ -64,6 +64,7 @@ struct LiteralCount {
   /// True: the budget was used up, and all counts are of what was done until then.
   bool is_used_up = false;
 
+  /// The numbers of all steps added up; its cut, kind and value are those of no step.
   [[nodiscard]] LiteralStep sum() const;
 };
 

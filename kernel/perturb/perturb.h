@@ -20,7 +20,7 @@ enum class NoiseKind {
   normal
 };
 
-/// What is done to a building to see whether its labels stand it. The default does nothing.
+/// What is done to a building to see whether its labels withstand it. The default does nothing.
 struct Perturbation {
   /// Of all that is drawn. Buildings are told apart by their ids, so one building is perturbed the
   /// same way in whatever company it comes.

@@ -25,7 +25,7 @@ std::string cut_of(const LiteralStep& step) {
 
 std::int64_t tests_of(const LiteralStep& sum) { return sum.protrusion_tests + sum.hole_tests; }
 
-/// What one thing more or less in a row saves the paper's own, or this row.
+/// How many tests the heuristic saves that a row has less than the paper's own, or more.
 std::string saving_of(const CountedHeuristics& row, const CountedHeuristics& paper) {
   if (&row == &paper || row.count.is_used_up || paper.count.is_used_up) return "-";
   const std::int64_t difference = tests_of(row.count.sum()) - tests_of(paper.count.sum());
