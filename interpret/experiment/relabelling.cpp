@@ -28,15 +28,23 @@ class Relabelling::Known final : public KnownJudgements {
   Known(const Relabelling& of, const EvaluationContext& context) : of_(of), context_(context) {}
 
   [[nodiscard]] const std::vector<Judgement>* of(int rule) const override {
-    for (const ClassId id : of_.uses_->classes_of(rule))
-      if (context_.membership[oriel::at(id)] != of_.membership_[oriel::at(id)]) return nullptr;
-    return of_.is_anew_[oriel::at(rule)] ? &of_.judged_anew_[oriel::at(rule)]
-                                         : &of_.judged_[oriel::at(rule)];
+    const bool is_anew = of_.is_anew_[oriel::at(rule)];
+    for (const ClassId id : of_.uses_->classes_of(rule)) {
+      if (context_.membership[oriel::at(id)] == of_.membership_[oriel::at(id)]) continue;
+      has_asked_affected_ = has_asked_affected_ || is_anew;
+      return nullptr;
+    }
+    return is_anew ? &of_.judged_anew_[oriel::at(rule)] : &of_.judged_[oriel::at(rule)];
   }
+
+  /// True if an affected rule had to be asked with other memberships: what it says then is in none
+  /// of the judgements that are kept.
+  [[nodiscard]] bool has_asked_affected() const { return has_asked_affected_; }
 
  private:
   const Relabelling& of_;
   const EvaluationContext& context_;
+  mutable bool has_asked_affected_ = false;
 };
 
 Relabelling::Relabelling(const Pack& pack, const RuleUses& uses, const FeatureTable& table,
@@ -66,7 +74,8 @@ std::vector<Choice> Relabelling::run(const Pack& pack, EvaluationContext& contex
   return Labelling(pack, context, known).run();
 }
 
-/// Asks the affected rules with the memberships as they were; true if one says something else.
+/// Asks the affected rules with the memberships as they were; true if one says something else, or
+/// may: the members that rules of a recursive step find together are not those of its end alone.
 bool Relabelling::ask(const Pack& changed, const RuleUses::Affected& affected,
                       EvaluationContext& context) {
   context.membership = membership_;
@@ -77,7 +86,7 @@ bool Relabelling::ask(const Pack& changed, const RuleUses::Affected& affected,
     const auto r = oriel::at(rule);
     judged_anew_[r] = judge(changed, changed.rules[r], evaluator, context.row_numbers);
     is_anew_[r] = true;
-    is_other = is_other || !are_same(judged_anew_[r], judged_[r]);
+    is_other = is_other || uses_->is_recursive(rule) || !are_same(judged_anew_[r], judged_[r]);
   }
   return is_other;
 }
@@ -90,10 +99,11 @@ bool Relabelling::is_as_before(const RuleUses::Affected& affected) const {
   return true;
 }
 
-void Relabelling::keep(const RuleUses::Affected& affected) {
+/// If nothing but these judgements led to the choices.
+void Relabelling::keep(const RuleUses::Affected& affected, const Known& known) {
   last_judged_.clear();
   last_rules_.clear();
-  if (affected.decides_anew) return;
+  if (affected.decides_anew || known.has_asked_affected()) return;
   last_rules_ = affected.rules;
   for (const int rule : last_rules_) last_judged_.push_back(judged_anew_[oriel::at(rule)]);
 }
@@ -109,7 +119,7 @@ const std::vector<Choice>& Relabelling::choices(const Pack& changed,
   if (is_as_before(affected)) return changed_choices_;
   const Known known(*this, context);
   changed_choices_ = run(changed, context, &known);
-  keep(affected);
+  keep(affected, known);
   return changed_choices_;
 }
 

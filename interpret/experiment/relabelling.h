@@ -39,7 +39,7 @@ class Relabelling {
 
   void know_judgements();
   [[nodiscard]] bool is_as_before(const RuleUses::Affected& affected) const;
-  void keep(const RuleUses::Affected& affected);
+  void keep(const RuleUses::Affected& affected, const Known& known);
   bool ask(const Pack& changed, const RuleUses::Affected& affected, EvaluationContext& context);
   std::vector<Choice> run(const Pack& pack, EvaluationContext& context, const Known* known) const;
 

@@ -8,7 +8,9 @@
 
 namespace oriel::rules {
 
-RuleUses::RuleUses(const Pack& pack) : pack_(&pack) {
+RuleUses::RuleUses(const Pack& pack) : pack_(&pack), is_recursive_(pack.rules.size()) {
+  for (const RuleStep& step : pack.steps)
+    for (const int rule : step.rules) is_recursive_[at(rule)] = step.is_recursive;
   const std::size_t relations = relation_schema().size() + pack.relations.size();
   const Uses nothing{
       std::vector<bool>(pack.params.size()), std::vector<bool>(relations), {}, false};

@@ -29,6 +29,10 @@ class RuleUses {
   [[nodiscard]] const std::vector<ClassId>& classes_of(int rule) const {
     return rules_[static_cast<std::size_t>(rule)].classes;
   }
+  /// Whether it is run to a fixpoint, with itself or with other rules.
+  [[nodiscard]] bool is_recursive(int rule) const {
+    return is_recursive_[static_cast<std::size_t>(rule)];
+  }
 
  private:
   /// What an expression, a rule or a relation depends on.
@@ -45,6 +49,7 @@ class RuleUses {
 
   const Pack* pack_;
   std::vector<Uses> rules_;
+  std::vector<bool> is_recursive_;
   /// By position in Pack::relations.
   std::vector<Uses> relations_;
 };

@@ -53,6 +53,21 @@ const std::string kSmallPack =
     "decide: {min_score: $enough, ambiguous_below: 0.4, evidence: $company, company: [alike, "
     "like]}\n";
 
+/// A param in two rules of which one asks for the class of the other, and one in a rule that asks
+/// for its own class.
+const std::string kChainedPack =
+    "schema: oriel/1\n"
+    "pack: {name: t, version: 1.0.0}\n"
+    "params:\n"
+    "  w: {value: 1 m, range: 0.1 m .. 5 m}\n"
+    "  low: {value: 3 m, range: 0.1 m .. 9 m}\n"
+    "classes: {opening: {abstract: true}, low: {abstract: true}, window: {}, door: {}}\n"
+    "rules:\n"
+    "  - {id: opening.any, label: opening, require: 'width >= $w'}\n"
+    "  - {id: low.any, label: low, require: 'base_height <= $low or exists(beside where is low)'}\n"
+    "  - {id: window.w, label: window, require: 'self is opening and height >= $w - 1 m'}\n"
+    "  - {id: door.d, label: door, require: 'self is low', priority: 1}\n";
+
 /// Every param at some values, everything that can be left out, and some of both.
 std::vector<Variant> variants_of(const RuleBase& rules, std::uint64_t seed) {
   Draws draws(seed);
@@ -111,6 +126,20 @@ TEST_SUITE("interpret/experiment") {
       const std::vector<Sample> samples{random_sample(seed, 12), random_sample(seed + 1, 9)};
       RC_ASSERT(is_as_by_itself(rules, variants_of(rules, seed), samples));
     }));
+  }
+
+  TEST_CASE("variants that change rules which ask for each other are counted as by themselves") {
+    const RuleBase rules = load(kChainedPack);
+    std::vector<Variant> variants;
+    for (const PackParam& param : params_of(rules))
+      for (int i = 1; i < 40; ++i)
+        variants.push_back(variant_with(
+            rules, {{param.name, param.range->first + (param.range->second - param.range->first) *
+                                                          i / 40}}));
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      CAPTURE(seed);
+      CHECK(is_as_by_itself(rules, variants, {random_sample(seed, 15)}));
+    }
   }
 
   TEST_CASE("variants of a pack with rounds are counted as if each were run by itself") {
