@@ -11,12 +11,10 @@
 #include "bench/peak_memory.h"
 #include "bench/timing.h"
 #include "interpret/experiment/count_variants.h"
-#include "interpret/experiment/learn/learn_params.h"
 #include "interpret/labelling/interpret.h"
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/random.h"
-#include "kernel/io/records/feature_tables.h"
-#include "oriel/score.h"
+#include "oriel/experiments/learn.h"
 
 #include <algorithm>
 #include <atomic>
@@ -24,7 +22,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <map>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,26 +35,11 @@ namespace {
 
 using namespace oriel;
 
-std::vector<Sample> read_samples(const std::string& records, const std::string& truth_file) {
-  std::vector<Sample> samples;
-  auto tables = read_feature_tables(records);
-  auto truths = read_truths(truth_file);
-  if (!tables.value || !truths.value) throw std::runtime_error("no records or no truth");
-  std::map<std::string, std::size_t> number_of;
-  for (DescribedBuilding& building : *tables.value) {
-    number_of[building.table.building()] = samples.size();
-    samples.push_back({std::move(building), {}, {}});
-  }
-  visit_feature_records(records, [&](const FeatureRecord& r) {
-    samples[number_of.at(r.building)].boxes.push_back(
-        {{r.aabb_m[0], r.aabb_m[1], r.aabb_m[2]}, {r.aabb_m[3], r.aabb_m[4], r.aabb_m[5]}});
-  });
-  LabelsAndTruth all;
-  for (const GroundTruth& truth : *truths.value) add(truth, all);
-  for (ExpectedObject& object : all.truth)
-    if (const auto found = number_of.find(object.building); found != number_of.end())
-      samples[found->second].truth.push_back(std::move(object));
-  return samples;
+std::vector<Sample> samples_in(const std::string& records, const std::string& truth,
+                               const RuleBase& rules) {
+  auto samples = read_samples(std::span(&records, 1), std::span(&truth, 1), rules);
+  if (!samples.value) throw std::runtime_error(to_string(samples.issues.front()));
+  return std::move(*samples.value);
 }
 
 std::vector<Variant> swept(const RuleBase& rules, int values) {
@@ -131,7 +114,7 @@ void on_two_threads(std::size_t count, const std::function<void(std::size_t)>& w
 int learn(const std::vector<std::string>& arguments) {
   const auto rules = load_pack_file(arguments[2]);
   if (!rules.value) return EXIT_FAILURE;
-  const std::vector<Sample> samples = read_samples(arguments[0], arguments[1]);
+  const std::vector<Sample> samples = samples_in(arguments[0], arguments[1], *rules.value);
   const auto folds = static_cast<std::size_t>(std::atoi(arguments[3].c_str()));
   const auto seed = static_cast<std::uint64_t>(std::atoi(arguments[4].c_str()));
   LearnOptions options;
@@ -168,7 +151,7 @@ int learn(const std::vector<std::string>& arguments) {
 int run(const std::string& what, const std::vector<std::string>& arguments) {
   const auto rules = load_pack_file(arguments[2]);
   if (!rules.value) return EXIT_FAILURE;
-  const std::vector<Sample> samples = read_samples(arguments[0], arguments[1]);
+  const std::vector<Sample> samples = samples_in(arguments[0], arguments[1], *rules.value);
   std::size_t rows = 0;
   for (const Sample& sample : samples) rows += sample.features.table.rows();
   const int count = arguments.size() > 3 ? std::atoi(arguments[3].c_str()) : 0;

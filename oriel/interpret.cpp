@@ -1,6 +1,14 @@
 #include "oriel/interpret.h"
 
 #include "interpret/labelling/interpret.h"
+#include "kernel/base/counted.h"
+#include "kernel/base/printable.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel {
 
@@ -30,6 +38,24 @@ std::vector<std::string> columns_lacking(const RuleBase& rules, const RecordColu
   for (std::size_t field = 0; field < read.size(); ++field)
     if (read[field] && !has_column(columns, field)) lacking.push_back(record_fields()[field]);
   return lacking;
+}
+
+std::optional<Issue> lacks_columns(const std::string& file, const RecordColumns& columns,
+                                   const RuleBase& rules) {
+  constexpr std::size_t kShown = 5;
+  const std::vector<std::string> lacking = columns_lacking(rules, columns);
+  if (lacking.empty()) return std::nullopt;
+  const auto end = lacking.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, lacking.size()));
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E151;
+  issue.place.file = file;
+  issue.sentence = fmt::format(
+      "lacks {} that the pack '{}' reads: {}{}; interpreting it gives other labels than the "
+      "buildings have",
+      counted(lacking.size(), "column"), printable(rules.name()),
+      fmt::join(lacking.begin(), end, ", "), lacking.size() > kShown ? ", ..." : "");
+  return issue;
 }
 
 LabelDiff diff_labels(std::span<const DescribedBuilding> buildings,

@@ -2,6 +2,7 @@
 
 #include "interpret/pack/rule_base.h"
 #include "interpret/score/label_diff.h"
+#include "kernel/base/issue.h"
 #include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/feature_tables.h"
 #include "kernel/model/description/feature_graph.h"
@@ -25,6 +26,10 @@ std::vector<Interpretation> interpret(const RuleBase& rules,
 RecordColumns columns_read(const RuleBase& rules);
 /// The names of those that a table with `columns` lacks: their features count as without a value.
 std::vector<std::string> columns_lacking(const RuleBase& rules, const RecordColumns& columns);
+
+/// A warning E151 if a table with these columns lacks some that the pack reads.
+std::optional<Issue> lacks_columns(const std::string& file, const RecordColumns& columns,
+                                   const RuleBase& rules);
 
 /// What two packs say of the same buildings: `before` and `after` are what interpret() made of
 /// them. So many examples of each change are kept.

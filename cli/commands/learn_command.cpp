@@ -163,7 +163,7 @@ ExitCode learn(const LearnArguments& arguments, Report& report) {
   const auto objective = objective_of(arguments, report);
   if (!objective) return ExitCode::input;
   const Corrections corrections = corrections_of(arguments, *rules, report);
-  const auto samples = read_samples(arguments.records, arguments.truth, &corrections);
+  const auto samples = read_samples(arguments.records, arguments.truth, *rules, &corrections);
   report.add(samples.issues);
   if (!samples.value) return ExitCode::input;
   LearnOptions options;

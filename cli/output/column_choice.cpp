@@ -1,7 +1,6 @@
 #include "cli/output/column_choice.h"
 
 #include "interpret/language/suggest.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -80,24 +78,6 @@ RecordColumns chosen_columns(const std::vector<std::string>& words, const RuleBa
     }
   }
   return columns_named(names);
-}
-
-std::optional<Issue> lacks_columns(const std::string& file, const RecordColumns& columns,
-                                   const RuleBase& rules) {
-  constexpr std::size_t kShown = 5;
-  const std::vector<std::string> lacking = columns_lacking(rules, columns);
-  if (lacking.empty()) return std::nullopt;
-  const auto end = lacking.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, lacking.size()));
-  Issue issue;
-  issue.severity = Severity::warning;
-  issue.code = Code::E151;
-  issue.place.file = file;
-  issue.sentence = fmt::format(
-      "lacks {} that the pack '{}' reads: {}{}; interpreting it gives other labels than the "
-      "buildings have",
-      counted(lacking.size(), "column"), printable(rules.name()),
-      fmt::join(lacking.begin(), end, ", "), lacking.size() > kShown ? ", ..." : "");
-  return issue;
 }
 
 }  // namespace oriel::cli

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "kernel/base/issue.h"
 #include "oriel/interpret.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +17,5 @@ void add_columns_argument(CLI::App& command, std::vector<std::string>& columns);
 
 /// What the words name; nothing named: all columns. `rules` are those of the pack.
 RecordColumns chosen_columns(const std::vector<std::string>& words, const RuleBase& rules);
-
-/// A warning E151 if a table with these columns lacks some that the pack reads.
-std::optional<Issue> lacks_columns(const std::string& file, const RecordColumns& columns,
-                                   const RuleBase& rules);
 
 }  // namespace oriel::cli

@@ -108,21 +108,35 @@ class ExperimentAtWork {
       ids = ids_of_set(set.files, plan_.options, issues);
       if (!has_errors(issues))
         set.buildings = measured_buildings(*set.plan, plan_, set.files, ids, issues);
-      if (!has_errors(issues))
-        set.samples = stored_samples(set.files, set.buildings, *plan_.rules.base, issues);
+      if (!has_errors(issues)) set.samples = stored_samples_of(set, issues);
       return;
     }
     auto features = features_of(
         set, {pipeline_options(plan_.options, set.plan->ignores_semantics), std::nullopt});
     for (KeptFeatures& file : features) {
       add_issues(std::move(file.issues), issues);
-      for (const KeptBuilding& building : file.buildings)
+      for (const Sample& building : file.buildings)
         ids.push_back(building.features.table.building());
     }
     if (!has_errors(issues))
       set.buildings = measured_buildings(*set.plan, plan_, set.files, ids, issues);
     if (!has_errors(issues))
-      set.samples = samples_of(std::move(features), set.files, set.buildings);
+      set.samples = samples_of(all_of(std::move(features)), set.files.objects, set.buildings);
+  }
+
+  [[nodiscard]] std::vector<Sample> stored_samples_of(const SampleSet& set,
+                                                      std::vector<Issue>& issues) const {
+    std::vector<Sample> stored;
+    for (const HashedFile& file : set.files.features)
+      std::ranges::move(read_stored_samples(file.path, &*plan_.rules.base, issues),
+                        std::back_inserter(stored));
+    return samples_of(std::move(stored), set.files.objects, set.buildings);
+  }
+
+  static std::vector<Sample> all_of(std::vector<KeptFeatures> files) {
+    std::vector<Sample> all;
+    for (KeptFeatures& file : files) std::ranges::move(file.buildings, std::back_inserter(all));
+    return all;
   }
 
   std::vector<KeptFeatures> features_of(const SampleSet& set, const FeatureRecipe& recipe) {
@@ -156,7 +170,7 @@ class ExperimentAtWork {
   PartContext context_of(ExperimentPart part, const SampleSet& set, const RuleBase& rules) {
     return {plan_, rules, options_.for_each,
             [this](const SampleSet& of, const FeatureRecipe& recipe) {
-              return samples_of(features_of(of, recipe), of.files, of.buildings);
+              return samples_of(all_of(features_of(of, recipe)), of.files.objects, of.buildings);
             },
             [this, part, &set](std::size_t done, std::size_t all) {
               step(fmt::format("{} on {}", to_string(part), set.plan->name), done, all);

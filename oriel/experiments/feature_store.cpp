@@ -6,8 +6,8 @@
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/records/feature_records.h"
-#include "kernel/io/records/feature_tables.h"
 #include "oriel/experiments/perturb.h"
+#include "oriel/experiments/stored_samples.h"
 #include "oriel/segment.h"
 #include "oriel/write.h"
 
@@ -172,10 +172,10 @@ std::optional<KeptJson> kept_buildings(const std::string& stem) {
 /// What was kept of a file of models, its buildings in its order.
 KeptFeatures read_kept(const std::string& stem) {
   KeptFeatures kept;
-  std::map<std::string, KeptBuilding> by_id;
-  for (KeptBuilding& building : read_stored_features(stem + kRecordsEnd, kept.issues)) {
-    std::string id = building.features.table.building();
-    by_id.emplace(std::move(id), std::move(building));
+  std::map<std::string, Sample> by_id;
+  for (Sample& sample : read_stored_samples(stem + kRecordsEnd, nullptr, kept.issues)) {
+    std::string id = sample.features.table.building();
+    by_id.emplace(std::move(id), std::move(sample));
   }
   const auto list = kept_buildings(stem);
   for (const KeptJson& entry : list ? *list : KeptJson::array()) {
@@ -184,7 +184,7 @@ KeptFeatures read_kept(const std::string& stem) {
     if (found != by_id.end())
       kept.buildings.push_back(std::move(found->second));
     else
-      kept.buildings.push_back({{FeatureTable(id, 0), {}}, {}});
+      kept.buildings.push_back({{FeatureTable(id, 0), {}}, {}, {}});
     if (entry.contains("fault"))
       kept.issues.push_back(building_issue(
           Severity::warning, code_of(entry.value("code", "")).value_or(Code::none), id,
@@ -266,35 +266,6 @@ std::vector<KeptFeatures> FeatureStore::features_of(const std::vector<HashedFile
   for_each(files.size(), [&](std::size_t i) { all[i] = read_kept(stem_of(files[i], recipe)); });
   step(files.size());
   return all;
-}
-
-std::vector<KeptBuilding> read_stored_features(const std::string& path, std::vector<Issue>& issues,
-                                               RecordColumns* columns) {
-  auto tables = read_feature_tables(path, columns);
-  issues.insert(issues.end(), tables.issues.begin(), tables.issues.end());
-  std::vector<KeptBuilding> buildings;
-  if (!tables.value) return buildings;
-  for (DescribedBuilding& described : *tables.value) {
-    const std::size_t rows = described.table.rows();
-    buildings.push_back({std::move(described), std::vector<Box>(rows)});
-  }
-  // Records come in the order of the tables' rows; one that a table leaves out has an id again.
-  std::size_t building = 0, row = 0;
-  visit_feature_records(path, [&](const FeatureRecord& record) {
-    const auto is_here = [&] {
-      const FeatureTable& table = buildings[building].features.table;
-      return table.building() == record.building && row < table.rows() &&
-             table.id(FeatureId{static_cast<int>(row)}) == record.id;
-    };
-    if (building < buildings.size() && row == buildings[building].features.table.rows()) {
-      ++building;
-      row = 0;
-    }
-    if (building >= buildings.size() || !is_here()) return;
-    const auto& b = record.aabb_m;
-    buildings[building].boxes[row++] = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
-  });
-  return buildings;
 }
 
 }  // namespace oriel

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "interpret/experiment/parallel.h"
+#include "interpret/experiment/sample.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/records/record_columns.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/vec3.h"
 #include "kernel/perturb/perturb.h"
 #include "oriel/options.h"
 
@@ -15,16 +13,11 @@
 
 namespace oriel {
 
-/// A building with the features that were found; without any if it could not be segmented.
-struct KeptBuilding {
-  DescribedBuilding features;
-  /// By row of the table, in the input's coordinates, before the building was perturbed.
-  std::vector<Box> boxes;
-};
-
 /// The buildings of a file of models.
 struct KeptFeatures {
-  std::vector<KeptBuilding> buildings;
+  /// Without truth, and without features where a building could not be segmented. Boxes are those
+  /// of before it was perturbed.
+  std::vector<Sample> buildings;
   /// Warnings about buildings that could not be segmented.
   std::vector<Issue> issues;
 };
@@ -73,10 +66,5 @@ class FeatureStore {
   std::string program_;
   bool is_temporary_ = false;
 };
-
-/// The features in a file of records, building by building. What is wrong with it is added to
-/// `issues`; `columns` becomes what the file has. Throws InputError as read_feature_tables() does.
-std::vector<KeptBuilding> read_stored_features(const std::string& path, std::vector<Issue>& issues,
-                                               RecordColumns* columns = nullptr);
 
 }  // namespace oriel

@@ -8,6 +8,7 @@
 #include "interpret/experiment/learn/propose.h"       // IWYU pragma: export
 #include "interpret/experiment/sample.h"              // IWYU pragma: export
 #include "interpret/labelling/corrections.h"          // IWYU pragma: export
+#include "interpret/pack/rule_base.h"
 #include "kernel/base/issue.h"
 
 #include <span>
@@ -19,15 +20,17 @@ namespace oriel {
 /// Samples of stored features, in the order of their buildings' names, with the truth of the same
 /// buildings. `records` are files of feature records, `truths` are `*.truth.json` and
 /// `*.truth.jsonl` files. Issues are those of reading them, and R284: an error if no building has
-/// both features and truth, or a building occurs twice; else a warning
-/// about buildings without truth, which are left out, and about those without features, whose
-/// objects count as missed. Throws InputError for a file that cannot be read.
+/// both features and truth, or a building occurs twice; else a warning about buildings without
+/// truth, which are left out, and about those without features, whose objects count as missed; and
+/// a warning E151 for each file that lacks columns which `rules` read, or boxes. Throws InputError
+/// for a file that cannot be read.
 ///
 /// `corrections` (null: none) add to the truth (add_corrections): of a building without other truth
 /// they are all that is known. Issues are then also those of Corrections::find, and E153 for
 /// buildings that the records do not have.
 Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
                                           std::span<const std::string> truths,
+                                          const RuleBase& rules,
                                           const Corrections* corrections = nullptr);
 
 }  // namespace oriel

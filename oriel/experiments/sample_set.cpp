@@ -6,8 +6,6 @@
 #include "kernel/io/reader.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/experiments/file_patterns.h"
-#include "oriel/interpret.h"
-#include "oriel/score.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -26,20 +24,12 @@ namespace fs = std::filesystem;
 using IdsOfSet = std::set<std::string>;
 
 void read_set_truth(const SetPlan& set, SetFiles& files, std::vector<Issue>& issues) {
-  for (const HashedFile& file : files.truth) {
-    const auto truths = read_truths(file.path);
-    issues.insert(issues.end(), truths.issues.begin(), truths.issues.end());
-    if (!truths.value) continue;
-    for (const GroundTruth& truth : *truths.value) {
-      LabelsAndTruth all;
-      add(truth, all);
-      if (!files.objects.emplace(truth.building, std::move(all.truth)).second)
-        issues.push_back(set.spot.issue(
-            Severity::error, Code::R289,
-            fmt::format("the building '{}' has two truths in the set '{}'; the second is in {}",
-                        truth.building, set.name, path_in_plan(file.path, ""))));
-    }
-  }
+  for (const HashedFile& file : files.truth)
+    for (const std::string& id : add_truth(file.path, files.objects, issues))
+      issues.push_back(set.spot.issue(
+          Severity::error, Code::R289,
+          fmt::format("the building '{}' has two truths in the set '{}'; the second is in {}", id,
+                      set.name, file.path)));
 }
 
 /// Records have no date of their own.
@@ -55,21 +45,6 @@ void report_old_features(const SetPlan& set, const SetFiles& files, std::vector<
                       features.path, model.path)));
       break;
     }
-}
-
-/// "'a', 'b' ...": the first of them.
-std::string first_of(const std::vector<std::string>& ids) {
-  constexpr std::size_t kShown = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kShown, ids.size()); ++i)
-    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", ids[i]);
-  return text + (ids.size() > kShown ? " ..." : "");
-}
-
-IdsOfSet ids_of(const std::map<std::string, std::vector<ExpectedObject>>& objects) {
-  IdsOfSet ids;
-  for (const auto& [id, all] : objects) ids.insert(id);
-  return ids;
 }
 
 std::vector<std::string> without(const IdsOfSet& all, const IdsOfSet& others) {
@@ -167,46 +142,34 @@ void check_objectives(const SetPlan& set, const ExperimentPlan& plan, const SetF
                       set.name, (*learn)->objective, rules::join({all.begin(), all.end()}))));
 }
 
-void report_lacking_columns(const std::string& path, const std::vector<std::string>& lacking,
-                            std::vector<Issue>& issues) {
-  if (lacking.empty()) return;
-  Issue issue;
-  issue.severity = Severity::warning;
-  issue.code = Code::E151;
-  issue.sentence = fmt::format("the features lack {}, which the rules read: {}",
-                               counted(lacking.size(), "column"), rules::join(lacking));
-  issue.place.file = path;
-  issues.push_back(std::move(issue));
-}
-
 /// Errors and warnings about ids that only one side has.
-void check_ids(const SetPlan& set, const SetFiles& files, const IdsOfSet& found,
+void check_ids(const SetPlan& set, const SetFiles& files, const std::vector<std::string>& found,
                std::vector<Issue>& issues) {
-  const IdsOfSet known = ids_of(files.objects);
-  const auto unknown = without(found, known), absent = without(known, found);
-  if (unknown.size() == found.size() || absent.size() == known.size()) {
+  const auto [without_truth, without_features] = unpaired_buildings(found, files.objects);
+  if (without_truth.size() == found.size()) {
     issues.push_back(set.spot.issue(
         Severity::error, Code::R284,
         fmt::format(
             "the truth of the set '{}' is of other buildings: it has {}, and the set has {}",
-            set.name, known.empty() ? "none" : first_of(absent),
-            found.empty() ? "none" : first_of(unknown))));
+            set.name, files.objects.empty() ? "none" : some_of(without_features),
+            found.empty() ? "none" : some_of(without_truth))));
     return;
   }
-  if (!unknown.empty())
+  if (!without_truth.empty())
     issues.push_back(set.spot.issue(
         Severity::warning, Code::R284,
         fmt::format("{} of the set '{}' {} left out: there is no truth of {}",
-                    counted_of(unknown.size(), found.size(), "building"), set.name,
-                    agreeing_of(unknown.size(), found.size(), "is", "are"), first_of(unknown))));
-  if (absent.empty()) return;
+                    counted_of(without_truth.size(), found.size(), "building"), set.name,
+                    agreeing_of(without_truth.size(), found.size(), "is", "are"),
+                    some_of(without_truth))));
+  if (without_features.empty()) return;
   issues.push_back(set.spot.issue(
       Severity::warning, Code::R284,
       files.models.empty()
           ? fmt::format("the set '{}' has no features of {}: all objects there count as missed",
-                        set.name, first_of(absent))
+                        set.name, some_of(without_features))
           : fmt::format("the set '{}' has no building {}: its truth is left out", set.name,
-                        first_of(absent))));
+                        some_of(without_features))));
 }
 
 }  // namespace
@@ -243,8 +206,10 @@ std::vector<std::string> ids_of_set(const SetFiles& files, const SegmentationPla
   std::vector<std::string> ids;
   if (!files.features.empty()) {
     for (const HashedFile& file : files.features) {
+      std::string last;
       const auto found = visit_feature_records(file.path, [&](const FeatureRecord& record) {
-        if (ids.empty() || ids.back() != record.building) ids.push_back(record.building);
+        if (last != record.building) ids.push_back(record.building);
+        last = record.building;
       });
       issues.insert(issues.end(), found.begin(), found.end());
     }
@@ -274,7 +239,7 @@ std::vector<std::string> measured_buildings(const SetPlan& set, const Experiment
       issues.push_back(set.spot.issue(
           Severity::error, Code::R289,
           fmt::format("the building '{}' occurs twice in the set '{}'", id, set.name)));
-  check_ids(set, files, found, issues);
+  check_ids(set, files, {found.begin(), found.end()}, issues);
   std::vector<std::string> buildings;
   for (const auto& [id, objects] : files.objects)
     if (found.contains(id) || files.models.empty()) buildings.push_back(id);
@@ -323,40 +288,6 @@ PipelineOptions pipeline_options(const SegmentationPlan& plan, bool ignores_sema
   options.budget = plan.budget.value_or(options.budget);
   options.lod = plan.lod.value_or("");
   return options;
-}
-
-std::vector<Sample> samples_of(std::vector<KeptFeatures> features, const SetFiles& files,
-                               const std::vector<std::string>& buildings) {
-  std::map<std::string, KeptBuilding*> by_id;
-  for (KeptFeatures& file : features)
-    for (KeptBuilding& building : file.buildings)
-      by_id.emplace(building.features.table.building(), &building);
-  std::vector<Sample> samples;
-  samples.reserve(buildings.size());
-  for (const std::string& id : buildings) {
-    Sample sample;
-    if (const auto found = by_id.find(id); found != by_id.end()) {
-      sample.features = std::move(found->second->features);
-      sample.boxes = std::move(found->second->boxes);
-    } else {
-      sample.features.table = FeatureTable(id, 0);
-    }
-    sample.truth = files.objects.at(id);
-    samples.push_back(std::move(sample));
-  }
-  return samples;
-}
-
-std::vector<Sample> stored_samples(const SetFiles& files, const std::vector<std::string>& buildings,
-                                   const RuleBase& rules, std::vector<Issue>& issues) {
-  std::vector<KeptFeatures> features(files.features.size());
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    RecordColumns columns;
-    const std::string& path = files.features[i].path;
-    features[i].buildings = read_stored_features(path, issues, &columns);
-    report_lacking_columns(path, columns_lacking(rules, columns), issues);
-  }
-  return samples_of(std::move(features), files, buildings);
 }
 
 }  // namespace oriel

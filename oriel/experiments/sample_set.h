@@ -1,16 +1,12 @@
 #pragma once
 
 #include "interpret/experiment/plan/experiment_plan.h"
-#include "interpret/experiment/results.h"
 #include "interpret/experiment/sample.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/records/truth.h"
 #include "oriel/experiments/feature_store.h"
+#include "oriel/experiments/stored_samples.h"
 
 #include <cstddef>
-#include <functional>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +15,7 @@ namespace oriel {
 /// The files of a set, and what is known to be there.
 struct SetFiles {
   std::vector<HashedFile> models, features, truth;
-  /// By building.
-  std::map<std::string, std::vector<ExpectedObject>> objects;
+  TruthByBuilding objects;
 
   /// A text of all paths and hashes: two sets with the same text have the same samples.
   [[nodiscard]] std::string text() const;
@@ -65,15 +60,5 @@ struct SampleSet {
   std::vector<std::string> buildings;
   std::vector<Sample> samples;
 };
-
-/// Reads the samples of `buildings` from stored features. A warning E151 for each file that lacks
-/// columns which the rules read.
-std::vector<Sample> stored_samples(const SetFiles& files, const std::vector<std::string>& buildings,
-                                   const RuleBase& rules, std::vector<Issue>& issues);
-
-/// Samples of `buildings`, from what a store has of the models; ids of all buildings that these
-/// have are put into `ids` if it is not null.
-std::vector<Sample> samples_of(std::vector<KeptFeatures> features, const SetFiles& files,
-                               const std::vector<std::string>& buildings);
 
 }  // namespace oriel

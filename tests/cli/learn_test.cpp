@@ -87,6 +87,18 @@ TEST_SUITE("cli") {
     CHECK(both.out.find("2 buildings") != std::string::npos);
   }
 
+  TEST_CASE("learn says which columns its records lack") {
+    const Folder folder;
+    const std::string records = folder / "few.csv";
+    REQUIRE(run({"segment", sample("house"), sample("hip"), "--features", records, "--columns",
+                 "aabb_m,width_m,height_m"})
+                .exit == 0);
+    const Outcome outcome = run({"learn", records, "--truth", truth_of("house"), truth_of("hip"),
+                                 "--leave-one-out", "--restarts", "0"});
+    CHECK(outcome.exit == 0);
+    CHECK_MESSAGE(outcome.says("E151"), outcome.err);
+  }
+
   TEST_CASE("learn writes nothing where it cannot learn") {
     const Folder folder;
     const std::string records = samples_labelled(folder);

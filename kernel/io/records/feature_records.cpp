@@ -59,18 +59,6 @@ std::optional<std::string> set_number(std::optional<double>& value, std::size_t 
   return std::nullopt;
 }
 
-std::optional<std::string> set_box(FeatureRecord& record, std::string_view cell) {
-  if (cell.empty()) return std::nullopt;
-  const std::vector<std::string> parts = split(cell);
-  for (std::size_t i = 0; i < record.aabb_m.size(); ++i) {
-    const auto number = i < parts.size() ? detail::as_double(parts[i]) : std::nullopt;
-    if (!number || parts.size() != record.aabb_m.size())
-      return fmt::format("'aabb_m' is {}; expected six numbers", detail::in_quotes(cell));
-    record.aabb_m[i] = *number;
-  }
-  return std::nullopt;
-}
-
 std::optional<std::string> set_polygons(FeatureRecord& record, std::string_view cell) {
   for (const std::string& part : split(cell)) {
     const auto number = detail::as_whole(part);
@@ -164,7 +152,7 @@ std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells
   record.host = cells[field::host];
   if (auto fault = set_number(record.score, field::score, cells[field::score])) return fault;
   if (auto fault = set_number(record.margin, field::margin, cells[field::margin])) return fault;
-  if (auto fault = set_box(record, cells[field::aabb_m])) return fault;
+  if (auto fault = detail::read_box(cells[field::aabb_m], record.aabb_m)) return fault;
   if (auto fault = set_polygons(record, cells[field::source_polygons])) return fault;
   std::size_t at = field::first_attribute;
   for (const AttributeInfo& attribute : feature_schema())
@@ -372,6 +360,18 @@ std::optional<RelationClass> relation_class_of(std::string_view text) {
   };
   if (!fits(number) || !fits(size)) return std::nullopt;
   return RelationClass{static_cast<int>(*number), static_cast<int>(*size)};
+}
+
+std::optional<std::string> read_box(std::string_view cell, std::array<double, 6>& box) {
+  if (cell.empty()) return std::nullopt;
+  const std::vector<std::string> parts = split(cell);
+  for (std::size_t i = 0; i < box.size(); ++i) {
+    const auto number = i < parts.size() ? as_double(parts[i]) : std::nullopt;
+    if (!number || parts.size() != box.size())
+      return fmt::format("'aabb_m' is {}; expected six numbers", in_quotes(cell));
+    box[i] = *number;
+  }
+  return std::nullopt;
 }
 
 std::string no_number(std::string_view field, std::string_view cell) {

@@ -4,6 +4,7 @@
 #include "kernel/io/json/words.h"
 #include "kernel/io/records/record_text.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -42,8 +43,12 @@ std::optional<std::string> wrong_class(const detail::RecordCells& cells) {
 /// Collects the records of one building after the other.
 class TableBuilder {
  public:
-  explicit TableBuilder(Checked<std::vector<DescribedBuilding>>& result) : result_(&result) {
+  /// `boxes` may be null.
+  TableBuilder(Checked<std::vector<DescribedBuilding>>& result,
+               std::vector<std::vector<Box>>* boxes)
+      : result_(&result), boxes_(boxes) {
     result_->value.emplace();
+    if (boxes_ != nullptr) boxes_->clear();
   }
 
   /// Says what is wrong with the record.
@@ -61,12 +66,14 @@ class TableBuilder {
   std::map<std::string_view, std::vector<FeatureId>> classes_in(std::size_t relation);
 
   Checked<std::vector<DescribedBuilding>>* result_;
+  std::vector<std::vector<Box>>* boxes_;
   std::string building_;
   /// The rows so far, by id.
   std::unordered_map<std::string, int, TextHash, std::equal_to<>> rows_;
   /// Of the building at hand, row by row: its numbers, and its texts (id first).
   std::vector<double> numbers_;
   std::vector<std::string> texts_;
+  std::vector<Box> row_boxes_;
   /// Row by row the ids that each relation leads to, and the host: where they stand in `lists_`.
   std::string lists_;
   std::vector<std::size_t> list_ends_;
@@ -83,6 +90,9 @@ std::optional<std::string> TableBuilder::add(const detail::RecordCells& cells) {
   if (rows_.contains(cells[field::id]))
     return fmt::format("the building '{}' has a feature '{}' already", building_, cells[field::id]);
   if (auto fault = wrong_class(cells)) return fault;
+  std::array<double, 6> box{};
+  if (boxes_ != nullptr)
+    if (auto fault = detail::read_box(cells[field::aabb_m], box)) return fault;
   const std::size_t numbers = numbers_.size(), texts = texts_.size();
   texts_.emplace_back(cells[field::id]);
   if (auto fault = add_attributes(cells)) {
@@ -91,6 +101,7 @@ std::optional<std::string> TableBuilder::add(const detail::RecordCells& cells) {
     return fault;
   }
   rows_.emplace(cells[field::id], static_cast<int>(rows_.size()));
+  row_boxes_.push_back({{box[0], box[1], box[2]}, {box[3], box[4], box[5]}});
   const std::size_t first = field::first_attribute + feature_schema().size();
   for (std::size_t r = 0; r <= detail::recorded_relations().size(); ++r) {
     lists_ += r == 0 ? cells[field::host] : cells[first + r - 1];
@@ -202,7 +213,10 @@ void TableBuilder::set_relation(const std::string& name, std::size_t relation,
 }
 
 void TableBuilder::finish() {
-  if (!rows_.empty()) result_->value->push_back({make_table(), make_graph()});
+  if (!rows_.empty()) {
+    result_->value->push_back({make_table(), make_graph()});
+    if (boxes_ != nullptr) boxes_->push_back(std::move(row_boxes_));
+  }
   if (dangling_ > 0)
     result_->issues.push_back(
         building_issue(Severity::warning, Code::E121, building_,
@@ -214,6 +228,7 @@ void TableBuilder::finish() {
   rows_.clear();
   numbers_.clear();
   texts_.clear();
+  row_boxes_.clear();
   lists_.clear();
   list_ends_.clear();
   dangling_ = 0;
@@ -222,9 +237,10 @@ void TableBuilder::finish() {
 }  // namespace
 
 Checked<std::vector<DescribedBuilding>> read_feature_tables(const std::string& path,
-                                                            RecordColumns* columns) {
+                                                            RecordColumns* columns,
+                                                            std::vector<std::vector<Box>>* boxes) {
   Checked<std::vector<DescribedBuilding>> result;
-  TableBuilder builder(result);
+  TableBuilder builder(result, boxes);
   const auto add = [&](const detail::RecordCells& cells) { return builder.add(cells); };
   if (detail::visit_records(path, add, result.issues, columns))
     builder.finish();

@@ -3,6 +3,7 @@
 #include "kernel/io/json/text.h"
 #include "kernel/io/records/feature_records.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -54,6 +55,10 @@ constexpr char kClassMark = '#';
 std::string to_string(const RelationClass& related);
 /// Nothing if the text is no class.
 std::optional<RelationClass> relation_class_of(std::string_view text);
+
+/// Reads a box, xmin;ymin;zmin;xmax;ymax;zmax; an empty cell changes nothing. Says what is wrong
+/// with the cell.
+std::optional<std::string> read_box(std::string_view cell, std::array<double, 6>& box);
 
 /// What is no number in a field of numbers.
 std::string no_number(std::string_view field, std::string_view cell);

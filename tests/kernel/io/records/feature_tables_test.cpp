@@ -27,10 +27,16 @@ TEST_SUITE("kernel/io") {
       writer.append(
           feature_records(small.building, small.segmentation, small.table, small.graph, nullptr));
       writer.commit();
-      const auto read = read_feature_tables(folder.file(name));
+      std::vector<std::vector<Box>> boxes;
+      const auto read = read_feature_tables(folder.file(name), nullptr, &boxes);
       CHECK(read.issues.empty());
       REQUIRE(read.value);
       REQUIRE(read.value->size() == 1);
+      REQUIRE(boxes.size() == 1);
+      const auto records = read_feature_records(folder.file(name)).value.value();
+      REQUIRE(boxes.front().size() == records.size());
+      for (std::size_t i = 0; i < records.size(); ++i)
+        CHECK(boxes.front()[i].max.z == records[i].aabb_m[5]);
       const auto& [table, graph] = read.value->front();
       CHECK(table.building() == "house");
       REQUIRE(table.rows() == small.table.rows());
@@ -52,6 +58,20 @@ TEST_SUITE("kernel/io") {
       }
       CHECK(pairs == 4);
     }
+  }
+
+  TEST_CASE("a record whose box is none is left out where boxes are read") {
+    const test::TemporaryFolder folder;
+    const std::string path =
+        folder.write("f.csv", "building,id,aabb_m\nh,a,0;0;0;1;1\nh,b,0;0;0;1;1;2\n");
+    std::vector<std::vector<Box>> boxes;
+    const auto read = read_feature_tables(path, nullptr, &boxes);
+    CHECK(codes_of(read.issues) == "E111");
+    REQUIRE(read.value);
+    CHECK(read.value->front().table.rows() == 1);
+    REQUIRE(boxes.size() == 1);
+    REQUIRE(boxes.front().size() == 1);
+    CHECK(boxes.front()[0].max.z == 2);
   }
 
   TEST_CASE("features of a class are related as those of lists are") {
