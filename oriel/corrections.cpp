@@ -1,31 +1,9 @@
 #include "oriel/corrections.h"
 
-#include "interpret/yaml/json_text.h"
-#include "kernel/base/printable.h"
-
-#include <algorithm>
 #include <set>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace oriel {
-
-namespace {
-
-const LabelCorrection* correction_of(const PipelineResult& result, FeatureId feature) {
-  const auto found = std::ranges::find(result.corrections, feature,
-                                       [](const LabelCorrection& c) { return c.before.feature; });
-  return found == result.corrections.end() ? nullptr : &*found;
-}
-
-/// The label that it was corrected to.
-std::string label_after(const PipelineResult& result, FeatureId feature) {
-  const std::string& label = result.interpretation.verdicts.at(feature.index()).label.text();
-  return label.empty() ? "unknown" : label;
-}
-
-}  // namespace
 
 std::vector<PlacedFeature> placed_features(const Building& building,
                                            const Segmentation& segmentation,
@@ -75,24 +53,6 @@ Interpretation without_corrections(const PipelineResult& result) {
   for (const LabelCorrection& correction : result.corrections)
     before.verdicts.at(correction.before.feature.index()) = correction.before;
   return before;
-}
-
-std::string correction_text(const PipelineResult& result, FeatureId feature) {
-  const LabelCorrection* correction = correction_of(result, feature);
-  if (correction == nullptr) return {};
-  std::string text = "corrected to " + label_after(result, feature);
-  if (!correction->by.empty()) text += " by " + correction->by;
-  text += fmt::format(" ({}:{})", correction->place.file, correction->place.line);
-  if (!correction->why.empty()) text += ": " + correction->why;
-  return printable(text + "; the rules say:") + "\n";
-}
-
-std::string correction_json(const PipelineResult& result, FeatureId feature) {
-  const LabelCorrection* correction = correction_of(result, feature);
-  if (correction == nullptr) return {};
-  return fmt::format(R"("corrected":{{"label":{},"by":{},"why":{}}})",
-                     rules::json_string(label_after(result, feature)),
-                     rules::json_string(correction->by), rules::json_string(correction->why));
 }
 
 }  // namespace oriel

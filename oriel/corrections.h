@@ -32,11 +32,4 @@ void add_corrections(const Corrections& corrections, LabelsAndTruth& all,
 /// What the rules said of a building before its labels were corrected.
 Interpretation without_corrections(const PipelineResult& result);
 
-/// "corrected to door by ada (corrections.jsonl:3): it has a handle; the rules say:", or nothing
-/// where nobody corrected the feature.
-std::string correction_text(const PipelineResult& result, FeatureId feature);
-
-/// `"corrected":{"label","by","why"}`, or nothing.
-std::string correction_json(const PipelineResult& result, FeatureId feature);
-
 }  // namespace oriel

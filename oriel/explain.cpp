@@ -24,6 +24,15 @@ SurfaceTable surfaces_with_parts(const Building& building, const PipelineResult&
                     result.interpretation, rules);
 }
 
+/// Nothing where nobody corrected the feature.
+std::optional<CorrectedLabel> correction_of(const PipelineResult& result, FeatureId feature) {
+  const auto found = std::ranges::find(result.corrections, feature,
+                                       [](const LabelCorrection& c) { return c.before.feature; });
+  if (found == result.corrections.end()) return std::nullopt;
+  const std::string& label = result.interpretation.verdicts.at(feature.index()).label.text();
+  return CorrectedLabel{label.empty() ? "unknown" : label, found->by, found->why, found->place};
+}
+
 /// Places are given to the centimetre or so, and recesses that matter are deeper.
 constexpr double kReach_m = 0.05;
 
@@ -60,6 +69,7 @@ Explanation explain(const PipelineResult& result, const RuleBase& rules, Feature
   const Interpretation by_rules = without_corrections(result);
   Explanation explanation = explain(rules, table, graph, by_rules, feature);
   explanation.name = names_of_features(result).at(feature.index());
+  explanation.corrected = correction_of(result, feature);
   return explanation;
 }
 
@@ -73,6 +83,7 @@ std::vector<Explanation> explain_features(const PipelineResult& result, const Ru
   for (int i = 0; i < static_cast<int>(table.rows()); ++i) {
     all.push_back(explainer.explain(FeatureId{i}));
     all.back().name = std::move(names[static_cast<std::size_t>(i)]);
+    all.back().corrected = correction_of(result, FeatureId{i});
   }
   return all;
 }

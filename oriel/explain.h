@@ -28,7 +28,8 @@ std::vector<std::string> names_of_features(const PipelineResult& result);
 std::vector<FeatureId> find_features(const PipelineResult& result, std::string_view text);
 
 /// Why a feature has its label, or none: every rule with its conditions, what was found and what
-/// was asked for, and which number of the pack would change it (docs/rules.md).
+/// was asked for, and which number of the pack would change it (docs/rules.md). Of a corrected
+/// label who corrected it and why, and what the rules say.
 Explanation explain(const PipelineResult& result, const RuleBase& rules, FeatureId feature);
 
 /// The same of every feature, in their order, in less time than one by one; what would change a

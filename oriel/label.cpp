@@ -2,6 +2,7 @@
 
 #include "interpret/surfaces/annotate.h"
 #include "kernel/base/sha256.h"
+#include "oriel/explain.h"
 #include "oriel/pipeline/pipeline.h"
 
 #include <utility>
@@ -59,6 +60,9 @@ LabelledBuilding annotate(const Building& building, const PipelineResult& result
   AnnotateOptions annotating;
   annotating.codelist = options.codelist;
   annotating.has_reasons = options.has_reasons;
+  if (options.has_reasons && !result.corrections.empty())
+    for (const Explanation& explanation : explain_features(result, rules))
+      annotating.feature_reasons.push_back(reason(explanation));
   annotating.surfaces = result.named_surfaces;
   if (result.owners) annotating.owners = &*result.owners;
   annotating.attributes.emplace_back("oriel_config_sha256", sha256(configuration(options)));

@@ -8,7 +8,6 @@
 #include "cli/terminal/table.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
-#include "oriel/corrections.h"
 #include "oriel/explain.h"
 
 #include <algorithm>
@@ -51,22 +50,13 @@ class ExplanationPrinter {
                                 similar_rule(rules, arguments.rule)));
   }
 
-  /// What the rules say of a feature, after what somebody corrected.
-  [[nodiscard]] std::string text(const PipelineResult& result, const Explanation& explanation,
-                                 FeatureId feature) const {
-    if (!arguments_.is_json) return correction_text(result, feature) + text(explanation);
-    std::string object = to_json(explanation);
-    if (const std::string corrected = correction_json(result, feature); !corrected.empty())
-      object.insert(object.size() - 1, "," + corrected);
-    return object + "\n";
-  }
-
- private:
   [[nodiscard]] std::string text(const Explanation& explanation) const {
+    if (arguments_.is_json) return to_json(explanation) + "\n";
     if (arguments_.is_full) return to_text(explanation);
     return rules_.empty() ? summary_text(explanation) : rules_text(explanation, rules_);
   }
 
+ private:
   const ExplainArguments& arguments_;
   std::vector<std::size_t> rules_;
 };
@@ -105,7 +95,7 @@ ExitCode explain_place(const ExplainArguments& arguments, const RuleBase& rules)
       const FeatureId feature = feature_of(building, lines[i], found->polygon);
       is_surface = !feature.is_valid();
       text = is_surface ? explain_surface(building, lines[i], rules, found->polygon)
-                        : printer.text(lines[i], explain(lines[i], rules, feature), feature);
+                        : printer.text(explain(lines[i], rules, feature));
     }
   };
   RecordVisitor visitor(look_up, [&] {
@@ -288,10 +278,10 @@ ExitCode work(ExplainArguments& arguments) {
   if (arguments.feature.empty()) return graver(before, explain_buildings(arguments, *rules));
   const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
-  std::string first;
+  std::optional<Explanation> first;
   std::vector<FoundFeature> all, matches;
   const auto clear = [&] {
-    first.clear();
+    first.reset();
     all.clear();
     matches.clear();
   };
@@ -307,7 +297,7 @@ ExitCode work(ExplainArguments& arguments) {
         all.push_back(entry(FeatureId{static_cast<int>(i)}));
       for (const FeatureId id : find_features(line, arguments.feature)) {
         matches.push_back(entry(id));
-        if (first.empty()) first = printer.text(line, explain(line, *rules, id), id);
+        if (!first) first = explain(line, *rules, id);
       }
     }
   };
@@ -316,7 +306,7 @@ ExitCode work(ExplainArguments& arguments) {
   const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && all.empty());
   if (matches.size() > 1) refuse_several(arguments.feature, matches);
   if (matches.empty() && !has_said_why) refuse_unknown(arguments.feature, all);
-  if (!first.empty()) print_out(first, arguments.is_json);
+  if (first) print_out(printer.text(*first), arguments.is_json);
   return graver(before, code);
 }
 

@@ -158,6 +158,16 @@ struct NearestMiss {
   std::vector<MissReport> misses;
 };
 
+/// What somebody says that a feature is, against the rules (docs/formats.md, corrections.jsonl).
+struct CorrectedLabel {
+  /// "unknown" for none.
+  std::string label;
+  /// May be empty.
+  std::string by, why;
+  /// File and line.
+  Place place;
+};
+
 /// Why a feature has its label, or none: the whole proof, in the order of the pack.
 struct Explanation {
   std::string building;
@@ -176,6 +186,8 @@ struct Explanation {
   /// Only if they were searched for. Of rules with the same gap the first.
   std::optional<NearestMiss> nearest_miss;
   std::optional<FlipSearch> flip;
+  /// Set by who knows of it: all else is what the rules say without it.
+  std::optional<CorrectedLabel> corrected;
 };
 
 /// Explains features of one building: runs the pack over it again, once, then judges every
@@ -253,16 +265,21 @@ std::string flip_line(const FlipSearch& search);
 std::string place_text(const Place& place);
 
 /// The reason in one line without the id: of a label its rule with what its conditions and terms
-/// found; of a feature without one the best candidate, or that no rule for a label holds.
+/// found; of a feature without one the best candidate, or that no rule for a label holds. Of a
+/// corrected feature first who corrected it and why.
 std::string reason(const Explanation& explanation);
 
 /// "window 3 of facade south (f1) is labelled window by window.in_wall with score 0.93; no rule for
 /// another label holds.", "f2 has no label: no rule for a label holds; bay.by_shape comes nearest."
 std::string sentence(const Explanation& explanation);
 
-/// For a terminal, in at most kMostSummaryLines lines: the sentence, what the winner found (of a
-/// feature without a label its best candidate), the runner-up, the nearest miss with what it misses
-/// and the nearest flip, with file:line:column. What is left out is counted.
+/// "corrected to door by ada (corrections.jsonl:3): it has a handle; the rules say:" and a line
+/// end; nothing of a feature that nobody corrected. The three texts below begin with it.
+std::string correction_line(const Explanation& explanation);
+
+/// For a terminal, in at most kMostSummaryLines lines and that one: the sentence, what the winner
+/// found (of a feature without a label its best candidate), the runner-up, the nearest miss with
+/// what it misses and the nearest flip, with file:line:column. What is left out is counted.
 inline constexpr std::size_t kMostSummaryLines = 20;
 std::string summary_text(const Explanation& explanation);
 

@@ -157,6 +157,13 @@ std::string search_json(const FlipSearch& search) {
   return fmt::format("{{{}}}", text);
 }
 
+std::string corrected_json(const CorrectedLabel& corrected) {
+  std::string text = member("label", json_string(corrected.label));
+  text += next("by", json_string(corrected.by));
+  text += next("why", json_string(corrected.why));
+  return fmt::format("{{{}}}", text);
+}
+
 }  // namespace
 
 std::string to_json(const Explanation& explanation) {
@@ -179,6 +186,7 @@ std::string to_json(const Explanation& explanation) {
   text += next("rules", list(explanation.rules, rule_json));
   if (explanation.nearest_miss) text += next("nearest_miss", nearest_miss_json(explanation));
   if (explanation.flip) text += next("flip", search_json(*explanation.flip));
+  if (explanation.corrected) text += next("corrected", corrected_json(*explanation.corrected));
   return fmt::format("{{{}}}", text);
 }
 

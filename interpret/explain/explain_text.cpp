@@ -194,10 +194,36 @@ std::vector<ExplanationRow> rows_of(const RuleReport& rule) {
   return rows;
 }
 
+namespace {
+
+/// "corrected to door by ada (corrections.jsonl:3): it has a handle; the rules say:"
+std::string correction_clause(const CorrectedLabel& corrected, const std::string& place) {
+  std::string text = "corrected to " + corrected.label;
+  if (!corrected.by.empty()) text += " by " + corrected.by;
+  if (!place.empty()) text += fmt::format(" ({})", place);
+  if (!corrected.why.empty()) text += ": " + corrected.why;
+  return text + "; the rules say:";
+}
+
+}  // namespace
+
+std::string correction_line(const Explanation& explanation) {
+  if (!explanation.corrected) return {};
+  const Place& place = explanation.corrected->place;
+  return printable(correction_clause(*explanation.corrected,
+                                     fmt::format("{}:{}", place.file, place.line))) +
+         "\n";
+}
+
 std::string reason(const Explanation& explanation) {
   const Verdict& verdict = explanation.verdict;
-  if (verdict.label.empty()) return headline(explanation).substr(explanation.feature.size() + 4);
-  std::string text = fmt::format("{} {:.2f} by {}", verdict.label, verdict.score, verdict.rule);
+  // Without the file: the reason goes into outputs, which do not depend on where that lies.
+  const std::string corrected =
+      explanation.corrected ? correction_clause(*explanation.corrected, "") + " " : "";
+  if (verdict.label.empty())
+    return corrected + headline(explanation).substr(explanation.feature.size() + 4);
+  std::string text =
+      fmt::format("{}{} {:.2f} by {}", corrected, verdict.label, verdict.score, verdict.rule);
   const auto rule = std::ranges::find(explanation.rules, verdict.rule.text(), &RuleReport::id);
   if (rule == explanation.rules.end()) return text;
   const auto rows = rows_of(*rule);
@@ -258,7 +284,7 @@ std::string to_text(const Explanation& explanation) {
   std::vector<ExplanationRow> lines;
   for (const RuleReport& rule : explanation.rules)
     for (ExplanationRow& row : rows_of(rule)) lines.push_back(std::move(row));
-  std::string text = printable(headline(explanation)) + "\n";
+  std::string text = correction_line(explanation) + printable(headline(explanation)) + "\n";
   for (std::size_t i = 0; i < explanation.rounds.size(); ++i)
     text += fmt::format("  round {}: {}\n", i + 1, printable(to_string(explanation.rounds[i])));
   text += table_of(lines);

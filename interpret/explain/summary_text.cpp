@@ -234,7 +234,7 @@ std::string summary_text(const Explanation& explanation) {
   add_nearest_miss(lines, explanation);
   add_flip(lines, explanation);
   const std::size_t rules = explanation.rules.size();
-  return printable(sentence(explanation)) + "\n" + aligned(lines) +
+  return correction_line(explanation) + printable(sentence(explanation)) + "\n" + aligned(lines) +
          fmt::format("--full shows {}, --rule NAME one of them.\n",
                      rules == 1 ? "the one rule" : fmt::format("all {} rules", rules));
 }
@@ -243,7 +243,7 @@ std::string rules_text(const Explanation& explanation, const std::vector<std::si
   std::vector<ExplanationRow> rows;
   for (const std::size_t rule : rules)
     for (ExplanationRow& row : rows_of(explanation.rules[rule])) rows.push_back(std::move(row));
-  return printable(sentence(explanation)) + "\n" + table_of(rows);
+  return correction_line(explanation) + printable(sentence(explanation)) + "\n" + table_of(rows);
 }
 
 }  // namespace oriel

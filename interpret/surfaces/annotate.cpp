@@ -49,7 +49,7 @@ class Annotator {
         interpretation_(interpretation),
         base_(base),
         options_(options) {
-    if (options.has_reasons && table.rows() > 0)
+    if (options.has_reasons && options.feature_reasons.empty() && table.rows() > 0)
       explainer_.emplace(base, table, graph, interpretation);
   }
 
@@ -321,7 +321,10 @@ Members Annotator::members_of(int feature) const {
     members.emplace_back("oriel_groups", joined(groups));
   if (const auto& parts = parts_[oriel::at(feature)]; !parts.empty())
     members.emplace_back("oriel_parts", joined(parts));
-  if (explainer_) members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
+  if (explainer_)
+    members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
+  else if (options_.has_reasons)
+    members.emplace_back("oriel_why", options_.feature_reasons.at(oriel::at(feature)));
   return members;
 }
 

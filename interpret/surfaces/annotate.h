@@ -13,6 +13,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace oriel {
 
@@ -26,6 +27,9 @@ struct AnnotateOptions {
   /// Every surface and installation gets its reason in one line, oriel_why: reason() of its
   /// feature, or that of surface_reasons().
   bool has_reasons = false;
+  /// The reason of each feature, if they are known already, as where somebody corrected labels;
+  /// else empty.
+  std::vector<std::string> feature_reasons{};
   /// What interpret_surfaces says of the rows_to_name(), if it is known already; else empty.
   std::span<const SurfaceVerdict> surfaces{};
   /// polygon_owners of the segmentation and the building, if they are known already; else null.

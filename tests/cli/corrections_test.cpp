@@ -1,6 +1,7 @@
 #include "tests/cli/command.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,14 @@ TEST_SUITE("cli") {
         json::parse(run({"explain", sample("house"), window, "--corrections", file, "--json"}).out);
     CHECK(explained["corrected"]["by"] == "ada");
     CHECK(explained["label"] == "window");
+    const json all =
+        json::parse(run({"explain", sample("house"), "--corrections", file, "--json"}).out);
+    std::size_t corrected = 0;
+    for (const json& feature : all["features"]) {
+      corrected += feature.contains("corrected") ? 1 : 0;
+      if (feature["feature"] == window) CHECK(feature["corrected"]["label"] == "door");
+    }
+    CHECK(corrected == 1);
     // Outputs know it.
     const auto hash = [&](const std::vector<std::string>& more) {
       std::vector<std::string> call = {"label",    sample("house"), "-o", folder / "o.city.json",
@@ -75,6 +84,36 @@ TEST_SUITE("cli") {
       return sha;
     };
     CHECK(hash({}) != hash({"--corrections", file}));
+  }
+
+  TEST_CASE("the reason in the output says who corrected a feature and what the rules say") {
+    const Folder folder;
+    const std::string window = first_window(labelled_records(folder, {}));
+    const std::string file = folder.write("c.jsonl", R"({"building":"house","feature":")" + window +
+                                                         R"(","class":"door","by":"ada","why":"it )"
+                                                         R"(has a handle"})"
+                                                         "\n");
+    const auto reasons = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> call = {"label", sample("house"), "--explain", "-o",
+                                       folder / "out.city.json"};
+      call.insert(call.end(), more.begin(), more.end());
+      CHECK(run(call).exit == 0);
+      std::map<std::string, std::string> by_feature;
+      const json city = json::parse(bytes_of(folder / "out.city.json"));
+      for (const json& object : city["CityObjects"])
+        for (const json& geometry : object.value("geometry", json::array()))
+          for (const json& surface : geometry["semantics"]["surfaces"])
+            if (surface.contains("oriel_id"))
+              by_feature[surface["oriel_id"]] = surface["oriel_why"];
+      return by_feature;
+    };
+    auto before = reasons({});
+    auto after = reasons({"--corrections", file});
+    CHECK(after[window] ==
+          "corrected to door by ada: it has a handle; the rules say: " + before[window]);
+    // Others are explained by what the rules said of it.
+    after[window] = before[window];
+    CHECK(after == before);
   }
 
   TEST_CASE("corrections that cannot be followed are named with their lines") {
