@@ -1,5 +1,6 @@
 #include "kernel/base/printable.h"
 #include "oriel/report/forms.h"
+#include "oriel/report/tables.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -54,9 +55,7 @@ std::string markdown_of(const ExperimentResults& results,
       "By {}. All rows are in results.csv, all inputs with their hashes in "
       "manifest.json.\n\n",
       escaped(results.program));
-  ReportTable options{"Options", "Each option with its value.", {"option", "value"}, {}};
-  for (const auto& [name, value] : results.options) options.rows.push_back({name, value});
-  append_table(out, options);
+  append_table(out, table_of_options(results));
   out.pop_back();
   return out;
 }

@@ -1,6 +1,6 @@
-#include "kernel/base/printable.h"
 #include "oriel/report/axis.h"
 #include "oriel/report/forms.h"
+#include "oriel/report/markup.h"
 
 #include <algorithm>
 #include <array>
@@ -23,21 +23,6 @@ constexpr std::size_t kMostLetters = 62;
 constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                               "#e69f00", "#56b4e9", "#000000"};
 
-std::string escaped_xml(const std::string& text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string shortened(const std::string& text) {
   if (text.size() <= kMostLetters) return text;
   std::size_t end = kMostLetters - 1;
@@ -56,7 +41,7 @@ class Drawing {
   void text(double x, double y, const char* anchor, const std::string& words,
             const std::string& more = "") {
     text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                         anchor, more, escaped_xml(words));
+                         anchor, more, escaped_markup(words));
   }
   void dot(double x, double y, const char* colour) {
     text_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y,

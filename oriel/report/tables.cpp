@@ -183,4 +183,10 @@ std::vector<ReportTable> tables_of(const RunGroup& group) {
   return {table_of_runs(group, runs_of(group))};
 }
 
+ReportTable table_of_options(const ExperimentResults& results) {
+  ReportTable table{"Options", "Each option with its value.", {"option", "value"}, {}};
+  for (const auto& [name, value] : results.options) table.rows.push_back({name, value});
+  return table;
+}
+
 }  // namespace oriel::report

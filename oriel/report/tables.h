@@ -16,4 +16,7 @@ inline constexpr std::size_t kMostRunsListed = 20;
 /// line a run; of ablations the one that loses most first.
 std::vector<ReportTable> tables_of(const RunGroup& group);
 
+/// The options of an experiment, a line each.
+ReportTable table_of_options(const ExperimentResults& results);
+
 }  // namespace oriel::report
