@@ -57,8 +57,10 @@ Chart lines_of(const RunGroup& group) {
     });
   }
   if (const MeasuredRun* baseline = group.baseline();
-      baseline != nullptr && !std::isnan(baseline->mean->f1))
+      baseline != nullptr && !std::isnan(baseline->mean->f1)) {
     chart.reference = baseline->mean->f1;
+    chart.title += fmt::format(" (dashed: {})", baseline->setting().name);
+  }
   return chart;
 }
 
@@ -68,6 +70,7 @@ Chart differences_of(const RunGroup& group) {
   for (const MeasuredRun& run : group.runs) {
     const auto& difference = run.mean->difference;
     if (run.setting().is_baseline || !difference || std::isnan(difference->f1)) continue;
+    if (!has_effect(group, run)) continue;
     points.push_back({0, run.setting().name, "", difference->f1, difference->interval});
   }
   std::ranges::stable_sort(points, std::ranges::greater(),

@@ -45,8 +45,8 @@ struct Chart {
 inline constexpr std::size_t kMostDots = 40;
 
 /// The figures of one group. Of numbers that were varied: macro-F1 as it depends on each (of a
-/// sweep without those that have no effect). Of
-/// ablations: the differences, the largest first. Of a comparison and of what was learnt: F1 of
+/// sweep without those that have no effect). Of ablations that have an effect: the differences, the
+/// largest first. Of a comparison and of what was learnt: F1 of
 /// each class by run. Values that are none (NaN) are left out.
 std::vector<Chart> charts_of(const RunGroup& group);
 

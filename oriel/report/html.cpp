@@ -68,7 +68,8 @@ std::string html_of(const ExperimentResults& results, const std::vector<ReportSe
     }
     for (const ReportTable& table : section.tables) append_html_table(body, table);
   }
-  if (!results.tables.empty()) body += "<h2>Further tables</h2>\n";
+  if (!results.tables.empty())
+    body += sections.empty() ? "<h2>Tables</h2>\n" : "<h2>Further tables</h2>\n";
   for (const ReportTable& table : results.tables) append_html_table(body, table);
   body += fmt::format(
       "<h2>How it was made</h2>\n<p>By {}. All rows are in <code>results.csv</code>, "

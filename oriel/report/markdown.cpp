@@ -48,7 +48,7 @@ std::string markdown_of(const ExperimentResults& results,
   std::string out = fmt::format("# {}\n\n", escaped(results.name));
   if (!results.about.empty()) out += escaped(results.about) + "\n\n";
   for (const ReportSection& section : sections) append_section(out, section);
-  if (!results.tables.empty()) out += "## Further tables\n\n";
+  if (!results.tables.empty()) out += sections.empty() ? "## Tables\n\n" : "## Further tables\n\n";
   for (const ReportTable& table : results.tables) append_table(out, table);
   out += "## How it was made\n\n";
   out += fmt::format(

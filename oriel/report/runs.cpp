@@ -31,6 +31,24 @@ std::string slug_of(const std::string& text) {
   return slug;
 }
 
+std::string heading_of(ExperimentPart part) {
+  switch (part) {
+    case ExperimentPart::sweep:
+      return "Sweep";
+    case ExperimentPart::ablate:
+      return "Ablation";
+    case ExperimentPart::compare:
+      return "Comparison";
+    case ExperimentPart::stability:
+      return "Stability";
+    case ExperimentPart::learning_curve:
+      return "Learning curve";
+    case ExperimentPart::learn:
+      return "Learning";
+  }
+  return to_string(part);
+}
+
 }  // namespace
 
 const MeasuredRun* RunGroup::baseline() const {
@@ -39,12 +57,7 @@ const MeasuredRun* RunGroup::baseline() const {
   return found == runs.end() ? nullptr : &*found;
 }
 
-std::string RunGroup::title() const {
-  std::string name = to_string(part);
-  std::ranges::replace(name, '_', ' ');
-  name.front() = static_cast<char>(std::toupper(name.front()));
-  return fmt::format("{} on {}", name, set);
-}
+std::string RunGroup::title() const { return fmt::format("{} on {}", heading_of(part), set); }
 
 std::string RunGroup::slug() const { return slug_of(to_string(part) + "-" + set); }
 
@@ -84,6 +97,11 @@ bool has_same_counts(const MeasuredRun& a, const MeasuredRun& b) {
 }
 
 }  // namespace
+
+bool has_effect(const RunGroup& group, const MeasuredRun& run) {
+  const MeasuredRun* baseline = group.baseline();
+  return baseline == nullptr || !has_same_counts(*baseline, run);
+}
 
 std::vector<std::string> variables_without_effect(const RunGroup& group) {
   std::vector<std::string> names;

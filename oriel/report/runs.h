@@ -28,7 +28,8 @@ struct RunGroup {
   [[nodiscard]] const MeasuredRun* baseline() const;
   /// "Sweep on houses"
   [[nodiscard]] std::string title() const;
-  /// "sweep-houses": as names of files and labels have it, of small letters, digits and hyphens.
+  /// "sweep-houses", the part as the experiment has it: as names of files and labels have it, of
+  /// small letters, digits and hyphens.
   [[nodiscard]] std::string slug() const;
 };
 
@@ -39,6 +40,9 @@ std::vector<RunGroup> groups_of(const std::vector<ResultRow>& rows);
 /// The numbers that were varied, in the order of the rows, of which no run differs from the others
 /// in any class: they have no effect on that set.
 std::vector<std::string> variables_without_effect(const RunGroup& group);
+
+/// False: the run has the counts of the baseline in every class.
+bool has_effect(const RunGroup& group, const MeasuredRun& run);
 
 /// The row of a class in a run; null if it has none.
 const ResultRow* row_of(const MeasuredRun& run, const std::string& label);

@@ -45,7 +45,8 @@ std::string differences_sentence(const RunGroup& group) {
   const MeasuredRun* baseline = group.baseline();
   if (baseline == nullptr) return "";
   return fmt::format(
-      " Differences are to '{}'; p is that of McNemar's exact test on the true objects.",
+      " Differences are from '{}'; p is that of McNemar's exact test on the true objects, found or "
+      "missed: wrong predictions do not enter it.",
       baseline->setting().name);
 }
 
@@ -57,23 +58,51 @@ std::string value_of(const MeasuredRun& run) {
   return setting.unit.empty() ? number : fmt::format("{} {}", number, setting.unit);
 }
 
+/// The best and the worst run of a param, the pack's own value among them: of equal ones that.
+struct ParamExtremes {
+  std::string name;
+  const MeasuredRun* best = nullptr;
+  const MeasuredRun* worst = nullptr;
+
+  [[nodiscard]] double spread() const {
+    return f1_of(best) == kLowest ? 0 : f1_of(best) - f1_of(worst);
+  }
+};
+
+/// The params that matter most first.
+std::vector<ParamExtremes> extremes_of(const RunGroup& group) {
+  std::vector<ParamExtremes> params;
+  for (auto& [name, runs] : by_variable(group)) {
+    if (const MeasuredRun* baseline = group.baseline()) runs.insert(runs.begin(), baseline);
+    params.push_back({name, *std::ranges::max_element(runs, {}, f1_of),
+                      *std::ranges::min_element(runs, {}, f1_of)});
+  }
+  std::ranges::stable_sort(params, std::ranges::greater(), &ParamExtremes::spread);
+  return params;
+}
+
 ReportTable table_of_params(const RunGroup& group) {
   ReportTable table;
   table.title = fmt::format("{}: single params", group.title());
-  table.caption = "The best and the worst value of each param, all others as the pack says." +
-                  intervals_sentence(group) + differences_sentence(group);
+  table.caption =
+      "The best and the worst value of each param, all others as the pack says; the params that "
+      "matter most come first.";
+  if (group.baseline() != nullptr)
+    table.caption += fmt::format(" '{}' stands where no other value is better, or worse.",
+                                 group.baseline()->setting().name);
+  table.caption += intervals_sentence(group) + differences_sentence(group);
   const std::vector<std::string> idle = variables_without_effect(group);
   if (!idle.empty())
     table.caption += fmt::format(" Without any effect here: {}.", fmt::join(idle, ", "));
-  table.header = {"param", "best",  "macro-F1", "difference",
-                  "p",     "worst", "macro-F1", "difference"};
-  for (const auto& [name, runs] : by_variable(group)) {
-    if (std::ranges::find(idle, name) != idle.end()) continue;
-    const MeasuredRun* best = *std::ranges::max_element(runs, {}, f1_of);
-    const MeasuredRun* worst = *std::ranges::min_element(runs, {}, f1_of);
-    table.rows.push_back({name, value_of(*best), f1_cell(*best->mean), difference_cell(*best->mean),
-                          p_cell(*best->mean), value_of(*worst), f1_cell(*worst->mean),
-                          difference_cell(*worst->mean)});
+  table.header = {"param", "best",     "macro-F1",   "difference", "p",
+                  "worst", "macro-F1", "difference", "p"};
+  for (const ParamExtremes& param : extremes_of(group)) {
+    if (std::ranges::find(idle, param.name) != idle.end()) continue;
+    table.rows.push_back({param.name});
+    for (const MeasuredRun* run : {param.best, param.worst})
+      for (const std::string& cell :
+           {value_of(*run), f1_cell(*run->mean), difference_cell(*run->mean), p_cell(*run->mean)})
+        table.rows.back().push_back(cell);
   }
   return table;
 }
@@ -156,13 +185,25 @@ std::vector<ReportTable> tables_of_sweep(const RunGroup& group) {
   return tables;
 }
 
-ReportTable table_of_ablations(const RunGroup& group) {
+/// What makes a difference, then the names of what makes none.
+std::vector<ReportTable> tables_of_ablations(const RunGroup& group) {
   std::vector<const MeasuredRun*> runs = runs_of(group);
+  const auto idle = std::ranges::stable_partition(runs, [&](const MeasuredRun* run) {
+    return run->setting().is_baseline || has_effect(group, *run);
+  });
+  ReportTable without_effect{group.title() + ": without any effect",
+                             "What can be taken out here without changing a count of any class.",
+                             {"run"},
+                             {}};
+  for (const MeasuredRun* run : idle) without_effect.rows.push_back({run->setting().name});
+  runs.erase(idle.begin(), idle.end());
   std::ranges::stable_sort(runs, [](const MeasuredRun* a, const MeasuredRun* b) {
     const bool is_first = a->setting().is_baseline, is_second = b->setting().is_baseline;
     return is_first != is_second ? is_first : f1_of(a) < f1_of(b);
   });
-  return table_of_runs(group, runs);
+  std::vector<ReportTable> tables{table_of_runs(group, runs)};
+  if (!without_effect.rows.empty()) tables.push_back(std::move(without_effect));
+  return tables;
 }
 
 }  // namespace
@@ -172,7 +213,7 @@ std::vector<ReportTable> tables_of(const RunGroup& group) {
     case ExperimentPart::sweep:
       return tables_of_sweep(group);
     case ExperimentPart::ablate:
-      return {table_of_ablations(group)};
+      return tables_of_ablations(group);
     case ExperimentPart::compare:
     case ExperimentPart::learn:
       return {table_of_classes(group)};

@@ -99,11 +99,38 @@ TEST_SUITE("report") {
     CHECK(count_of(data, "\"$schema\"") == 3);
   }
 
-  TEST_CASE("a sweep lists the best and the worst value of each param") {
-    const auto files = report_files(some_results());
-    CHECK(has(text_of(files, "report.md"),
-              "| parapet | 0.6 m | 0.895 \\[0.845, 0.945\\] | -0.005 \\[-0.035, +0.015\\] | "
-              "0.020 | 1.1 m | 0.870 \\[0.820, 0.920\\] |"));
+  TEST_CASE(
+      "a sweep lists the best and the worst value of each param and what matters most first") {
+    ExperimentResults results = some_results();
+    add_run(results, ExperimentPart::sweep, {"low = 1 m", "low", 1, "m", false}, 0.94, 0.9);
+    const auto files = report_files(results);
+    const std::string& page = text_of(files, "report.md");
+    const std::string parapet =
+        "| parapet | as the pack says | 0.900 \\[0.850, 0.950\\] | – | – | 1.1 m | 0.870 "
+        "\\[0.820, 0.920\\] | -0.030 \\[-0.060, -0.010\\] | 0.020 |\n";
+    const std::string low =
+        "| low | 1 m | 0.920 \\[0.870, 0.970\\] | +0.020 \\[-0.010, +0.040\\] | 0.020 | as the "
+        "pack says | 0.900 \\[0.850, 0.950\\] | – | – |\n";
+    CHECK(has(page, parapet));
+    CHECK(has(page, low));
+    // The param step loses 0.1.
+    CHECK(page.find("| step |") < page.find(parapet));
+    CHECK(page.find(parapet) < page.find(low));
+  }
+
+  TEST_CASE("what can be taken out without any effect is named below the ablations") {
+    ExperimentResults results;
+    results.name = "ablate";
+    add_run(results, ExperimentPart::ablate, {"as it is", "", {}, "", true}, 0.9, 0.9);
+    add_run(results, ExperimentPart::ablate, {"without a", "", {}, "", false}, 0.9, 0.9);
+    add_run(results, ExperimentPart::ablate, {"without b", "", {}, "", false}, 0.8, 0.9);
+    const auto files = report_files(results);
+    const std::string& page = text_of(files, "report.md");
+    CHECK(has(page, "| without b | 0.850"));
+    CHECK(has(page, "### Ablation on houses: without any effect\n"));
+    CHECK(has(page, "\n| without a |\n"));
+    CHECK_FALSE(has(text_of(files, "figures/ablate-houses.svg"), "without a<"));
+    CHECK(has(text_of(files, "results.csv"), "without a"));
   }
 
   TEST_CASE("a param without any effect is named and not drawn") {
@@ -130,7 +157,7 @@ TEST_SUITE("report") {
   TEST_CASE("of ablations the one that loses most comes first after the pack itself") {
     const auto files = report_files(some_results());
     const std::string& page = text_of(files, "report.md");
-    const std::size_t section = page.find("## Ablate on houses");
+    const std::size_t section = page.find("## Ablation on houses");
     const std::size_t base = page.find("| as the pack says", section);
     const std::size_t most = page.find("| without rule door.on\\_ground", section);
     const std::size_t less = page.find("| without 'width", section);
