@@ -142,6 +142,26 @@ void settle_inputs(RunOptions& options, Report& report) {
   read_once(options.inputs, report);
 }
 
+std::vector<std::string> truth_files(const std::vector<std::string>& named) {
+  std::vector<std::string> files;
+  for (const std::string& path : named) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    const auto before = static_cast<std::ptrdiff_t>(files.size());
+    for (const auto& entry : fs::directory_iterator(path))
+      if (const std::string file = entry.path().string();
+          file.ends_with(".truth.json") || file.ends_with(".truth.jsonl"))
+        files.push_back(file);
+    std::ranges::sort(files.begin() + before, files.end());
+    if (std::ssize(files) == before)
+      throw InputError(about_input(path, Severity::error, Code::E101,
+                                   "the folder has no *.truth.json or *.truth.jsonl"));
+  }
+  return files;
+}
+
 void refuse_folder(const std::string& input) {
   if (!is_folder(input)) return;
   throw InputError(about_input(

@@ -23,6 +23,10 @@ void read_once(std::vector<std::string>& files, Report& report);
 /// CityJSON: records, truths and reports have these extensions, too.
 std::vector<std::string> files_in(const std::string& folder, const std::string& from);
 
+/// The files of truth that are named; a folder means its *.truth.json and *.truth.jsonl, sorted by
+/// name. Throws InputError E101 for a folder without any.
+std::vector<std::string> truth_files(const std::vector<std::string>& named);
+
 /// Throws InputError E106 if the input is a folder, which then has no file to read.
 void refuse_folder(const std::string& input);
 

@@ -13,12 +13,9 @@
 #include "oriel/experiments/learn.h"
 #include "oriel/rules.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,51 +51,13 @@ struct LearnArguments {
   bool is_verbose = false;
 };
 
-/// The truths of folders that are named, by name, and files as they are.
-std::vector<std::string> named_truths(const std::vector<std::string>& named) {
-  std::vector<std::string> files;
-  for (const std::string& path : named) {
-    if (!fs::is_directory(path)) {
-      files.push_back(path);
-      continue;
-    }
-    std::vector<std::string> found;
-    for (const auto& entry : fs::directory_iterator(path))
-      if (const std::string file = entry.path().string();
-          file.ends_with(".truth.json") || file.ends_with(".truth.jsonl"))
-        found.push_back(file);
-    std::ranges::sort(found);
-    if (found.empty()) {
-      Issue issue;
-      issue.code = Code::E101;
-      issue.sentence = "the folder has no *.truth.json or *.truth.jsonl";
-      issue.place.file = path;
-      throw InputError(std::move(issue));
-    }
-    files.insert(files.end(), found.begin(), found.end());
-  }
-  return files;
-}
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    Issue issue;
-    issue.code = Code::E101;
-    issue.sentence = "cannot be opened";
-    issue.place.file = path;
-    throw InputError(std::move(issue));
-  }
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// Nothing if its file of costs is wrong, which is reported.
 std::optional<Objective> objective_of(const LearnArguments& arguments, Report& report) {
   constexpr std::string_view kF1 = "f1:";
   if (arguments.objective.starts_with(kF1))
     return Objective::f1_of(arguments.objective.substr(kF1.size()));
   if (arguments.objective != "cost") return Objective::macro_f1();
-  auto costs = read_costs(text_of_file(arguments.costs), arguments.costs);
+  auto costs = read_costs_file(arguments.costs);
   report.add(costs.issues);
   if (!costs.value) return std::nullopt;
   return Objective::least_cost(std::move(*costs.value));
@@ -205,7 +164,7 @@ ExitCode work(LearnArguments& arguments) {
     throw CLI::ValidationError("--json", "has neither --ask nor --propose");
   Report report(arguments.is_verbose);
   read_once(arguments.records, report);
-  arguments.truth = named_truths(arguments.truth);
+  arguments.truth = truth_files(arguments.truth);
   read_once(arguments.truth, report);
   NamedFiles names;
   for (const std::string& records : arguments.records) names.add_input("records", records);

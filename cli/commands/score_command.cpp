@@ -18,7 +18,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <filesystem>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -35,8 +34,6 @@ namespace oriel::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ScoreArguments : RunOptions, RulesChoice {
   bool is_of_surfaces = false;
   std::vector<std::string> truth;
@@ -52,31 +49,6 @@ struct ScoreArguments : RunOptions, RulesChoice {
   bool has_safe_cells = false;
   bool is_json = false;
 };
-
-/// The truth files that are named, those of a folder by their names.
-std::vector<std::string> truth_files(const std::vector<std::string>& named) {
-  std::vector<std::string> files;
-  for (const std::string& path : named) {
-    if (!fs::is_directory(path)) {
-      files.push_back(path);
-      continue;
-    }
-    const std::size_t before = files.size();
-    for (const auto& entry : fs::directory_iterator(path))
-      if (const std::string file = entry.path().string();
-          file.ends_with(".truth.json") || file.ends_with(".truth.jsonl"))
-        files.push_back(file);
-    std::ranges::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
-    if (files.size() == before) {
-      Issue issue;
-      issue.code = Code::E101;
-      issue.sentence = "the folder has no *.truth.json or *.truth.jsonl";
-      issue.place.file = path;
-      throw InputError(std::move(issue));
-    }
-  }
-  return files;
-}
 
 void read_records(const std::string& path, LabelsAndTruth& all, Report& report, ExitCode& code) {
   auto records = read_feature_records(path);

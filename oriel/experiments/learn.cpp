@@ -1,6 +1,7 @@
 #include "oriel/experiments/learn.h"
 
 #include "kernel/base/counted.h"
+#include "kernel/io/files/input.h"
 #include "oriel/corrections.h"
 #include "oriel/experiments/stored_samples.h"
 
@@ -103,6 +104,10 @@ Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
   for (const std::string& path : truths) reader.read_truth(path);
   if (corrections != nullptr) reader.add_corrections(*corrections);
   return reader.result();
+}
+
+Checked<Objective::Costs> read_costs_file(const std::string& path) {
+  return read_costs(detail::Input(path).read_all(), path);
 }
 
 }  // namespace oriel

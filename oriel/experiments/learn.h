@@ -5,6 +5,7 @@
 #include "interpret/experiment/learn/ask.h"           // IWYU pragma: export
 #include "interpret/experiment/learn/learn_params.h"  // IWYU pragma: export
 #include "interpret/experiment/learn/learnt_pack.h"   // IWYU pragma: export
+#include "interpret/experiment/learn/objective.h"     // IWYU pragma: export
 #include "interpret/experiment/learn/propose.h"       // IWYU pragma: export
 #include "interpret/experiment/sample.h"              // IWYU pragma: export
 #include "interpret/labelling/corrections.h"          // IWYU pragma: export
@@ -32,5 +33,8 @@ Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
                                           std::span<const std::string> truths,
                                           const RuleBase& rules,
                                           const Corrections* corrections = nullptr);
+
+/// read_costs() of a file. Throws InputError E101 if it cannot be read.
+Checked<Objective::Costs> read_costs_file(const std::string& path);
 
 }  // namespace oriel
