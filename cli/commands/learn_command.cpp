@@ -93,8 +93,7 @@ std::string extended_name(const std::string& rules) {
 
 /// Changes of rules that pay with the pack as it is, as a person can put them into a pack.
 std::string proposals_text(const LearnArguments& arguments, const RuleBase& rules,
-                           const std::vector<Sample>& samples,
-                           const std::vector<std::vector<std::size_t>>& parts,
+                           const std::vector<Sample>& samples, const std::vector<SamplePart>& parts,
                            const Objective& objective) {
   ProposeOptions options;
   options.objective = objective;

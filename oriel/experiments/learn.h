@@ -1,8 +1,9 @@
 #pragma once
 
-/// Rules that learn from samples (docs/learn.md): read_samples, learn_params, learnt_pack,
-/// open_questions.
+/// Rules that learn from samples (docs/learn.md): read_samples, folds_of, learn_params,
+/// learnt_pack, open_questions.
 #include "interpret/experiment/learn/ask.h"           // IWYU pragma: export
+#include "interpret/experiment/learn/folds.h"         // IWYU pragma: export
 #include "interpret/experiment/learn/learn_params.h"  // IWYU pragma: export
 #include "interpret/experiment/learn/learnt_pack.h"   // IWYU pragma: export
 #include "interpret/experiment/learn/objective.h"     // IWYU pragma: export

@@ -1,6 +1,7 @@
 #include "oriel/experiments/learning_parts.h"
 
 #include "interpret/experiment/learn/learn_params.h"
+#include "interpret/experiment/learn/param_fit.h"
 #include "interpret/experiment/measure.h"
 #include "interpret/experiment/result_rows.h"
 #include "kernel/base/counted.h"
@@ -19,11 +20,6 @@ namespace oriel {
 
 namespace {
 
-using SamplePart = std::vector<std::size_t>;
-
-/// So many folds decide within what is learnt from; fewer where there are fewer buildings.
-constexpr std::size_t kInnerFolds = 5;
-
 LearnOptions learn_options(const LearnPlan& plan, const PartContext& context) {
   LearnOptions options;
   if (plan.objective != "macro_f1") options.objective = Objective::f1_of(plan.objective);
@@ -34,9 +30,8 @@ LearnOptions learn_options(const LearnPlan& plan, const PartContext& context) {
 }
 
 /// The data were checked before: what is refused now is a fault of oriel's own.
-Learnt learnt_from(const std::vector<Sample>& samples, const std::vector<SamplePart>& parts,
-                   const LearnOptions& options, const PartContext& context) {
-  auto learnt = learn_params(context.rules, samples, parts, options, context.for_each);
+template <class Value>
+Value sure(Checked<Value> learnt) {
   if (!learnt.value)
     throw std::logic_error("what was checked cannot be learnt from: " +
                            learnt.issues.front().sentence);
@@ -57,21 +52,6 @@ RunOutcomes measured_on(const SamplePart& part, std::span<const ParamValue> para
   const auto rules = with_params(context.rules, params);
   if (!rules.value) throw std::logic_error("what was learnt cannot be set");
   return measure(*rules.value, picked(set.samples, part), context.for_each);
-}
-
-SamplePart all_of(const std::vector<SamplePart>& parts) {
-  SamplePart all;
-  for (const SamplePart& part : parts) all.insert(all.end(), part.begin(), part.end());
-  std::ranges::sort(all);
-  return all;
-}
-
-/// The buildings that are not in a part.
-SamplePart outside(const SamplePart& part, std::size_t samples) {
-  SamplePart rest;
-  for (std::size_t i = 0; i < samples; ++i)
-    if (!std::ranges::binary_search(part, i)) rest.push_back(i);
-  return rest;
 }
 
 void add_learnt_rows(std::vector<ResultRow> rows, MeasuredPart& measured) {
@@ -121,7 +101,7 @@ ReportTable edges_table(const Learnt& learnt, const SampleSet& set) {
 ResultRows rows_against_own(ExperimentPart part, const std::vector<SamplePart>& parts,
                             const SampleSet& set, const PartContext& context,
                             MeasuredPart& measured) {
-  const auto held_out = picked(set.samples, all_of(parts));
+  const auto held_out = picked(set.samples, samples_of_parts(parts));
   ResultRows rows(part, set.plan->name, measure(context.rules, held_out, context.for_each),
                   static_cast<std::size_t>(context.plan.bootstrap));
   RunSetting own;
@@ -146,14 +126,11 @@ MeasuredPart run_learning(const SampleSet& set, const PartContext& context) {
   const ResultRows rows = rows_against_own(ExperimentPart::learn, parts, set, context, measured);
   LearnOptions options = learn_options(*context.plan.learn, context);
   options.step = context.step;
-  const Learnt learnt = learnt_from(set.samples, parts, options, context);
+  const Learnt learnt =
+      sure(learn_params(context.rules, set.samples, parts, options, context.for_each));
   RunOutcomes outcomes;
   for (std::size_t p = 0; p < parts.size(); ++p)
-    outcomes.merge(measured_on(parts[p],
-                               p < learnt.by_fold.size()
-                                   ? std::span<const ParamValue>(learnt.by_fold[p])
-                                   : std::span<const ParamValue>(),
-                               set, context));
+    outcomes.merge(measured_on(parts[p], learnt.learnt_without[p], set, context));
   RunSetting setting;
   setting.name = "learnt from the other buildings";
   add_learnt_rows(rows.rows_of(context.plan.rules.pack, setting, outcomes), measured);
@@ -177,15 +154,11 @@ MeasuredPart run_learning_curve(const SampleSet& set, const PartContext& context
       const auto count = static_cast<std::size_t>(buildings);
       RunOutcomes outcomes;
       for (std::size_t p = 0; p < parts.size(); ++p) {
-        const SamplePart from = drawn(outside(parts[p], set.samples.size()), count,
+        const SamplePart from = drawn(outside(parts[p], all_samples(set.samples.size())), count,
                                       context.plan.seed, (time + 1) * parts.size() + p);
-        const auto some = picked(set.samples, from);
-        const Learnt learnt =
-            learnt_from(some, folds_of(count, std::min(kInnerFolds, count), context.plan.seed),
-                        options, context);
-        std::vector<ParamValue> values;
-        for (const LearntParam& param : learnt.params) values.push_back(param.value);
-        outcomes.merge(measured_on(parts[p], values, set, context));
+        const auto learnt =
+            sure(fit_params(context.rules, picked(set.samples, from), options, context.for_each));
+        outcomes.merge(measured_on(parts[p], learnt, set, context));
       }
       RunSetting setting;
       setting.name = counted(count, "building") +

@@ -2,7 +2,6 @@
 
 #include "interpret/language/suggest.h"
 #include "kernel/base/counted.h"
-#include "kernel/base/random.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/experiments/file_patterns.h"
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -91,7 +89,7 @@ std::optional<std::string> fault_of(const SplitPlan& split,
 
 /// A learning curve cannot learn from more buildings than a part leaves.
 void check_curve(const SetPlan& set, const ExperimentPlan& plan, std::size_t buildings,
-                 const std::vector<std::vector<std::size_t>>& parts, std::vector<Issue>& issues) {
+                 const std::vector<SamplePart>& parts, std::vector<Issue>& issues) {
   if (!plan.learning_curve || plan.learning_curve->buildings.empty()) return;
   std::size_t largest = 0;
   for (const auto& part : parts) largest = std::max(largest, part.size());
@@ -249,25 +247,23 @@ std::vector<std::string> measured_buildings(const SetPlan& set, const Experiment
   return buildings;
 }
 
-std::vector<std::vector<std::size_t>> parts_of(const SplitPlan& split,
-                                               const std::vector<std::string>& buildings,
-                                               std::uint64_t seed) {
-  std::vector<std::vector<std::size_t>> parts;
-  std::vector<std::size_t> all(buildings.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  if (split.kind == SplitPlan::Kind::leave_one_out)
-    for (const std::size_t i : all) parts.push_back({i});
-  if (split.kind == SplitPlan::Kind::held_out) {
-    std::erase_if(all,
-                  [&](std::size_t i) { return !rules::contains(split.held_out, buildings[i]); });
-    parts.push_back(std::move(all));
-  } else if (split.kind == SplitPlan::Kind::folds) {
-    Random(seed).shuffle(all);
-    parts.resize(static_cast<std::size_t>(split.folds));
-    for (std::size_t i = 0; i < all.size(); ++i) parts[i % parts.size()].push_back(all[i]);
-    for (auto& part : parts) std::ranges::sort(part);
+std::vector<SamplePart> parts_of(const SplitPlan& split, const std::vector<std::string>& buildings,
+                                 std::uint64_t seed) {
+  switch (split.kind) {
+    case SplitPlan::Kind::none:
+      break;
+    case SplitPlan::Kind::folds:
+      return folds_of(buildings.size(), static_cast<std::size_t>(split.folds), seed);
+    case SplitPlan::Kind::leave_one_out:
+      return folds_of(buildings.size(), 0, seed);
+    case SplitPlan::Kind::held_out: {
+      SamplePart part = all_samples(buildings.size());
+      std::erase_if(part,
+                    [&](std::size_t i) { return !rules::contains(split.held_out, buildings[i]); });
+      return {part};
+    }
   }
-  return parts;
+  return {};
 }
 
 PipelineOptions pipeline_options(const SegmentationPlan& plan, bool ignores_semantics) {

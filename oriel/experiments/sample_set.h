@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/experiment/learn/folds.h"
 #include "interpret/experiment/plan/experiment_plan.h"
 #include "interpret/experiment/sample.h"
 #include "kernel/base/issue.h"
@@ -45,9 +46,8 @@ std::vector<std::string> measured_buildings(const SetPlan& set, const Experiment
 
 /// By part of the split the buildings that are measured; the others are learnt from. Without a
 /// split nothing. Folds are drawn by the seed, and as large as each other but for one building.
-std::vector<std::vector<std::size_t>> parts_of(const SplitPlan& split,
-                                               const std::vector<std::string>& buildings,
-                                               std::uint64_t seed);
+std::vector<SamplePart> parts_of(const SplitPlan& split, const std::vector<std::string>& buildings,
+                                 std::uint64_t seed);
 
 /// The options of segmentation that a plan says, over the command's own.
 PipelineOptions pipeline_options(const SegmentationPlan& plan, bool ignores_semantics);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/experiment/learn/folds.h"
 #include "interpret/experiment/learn/knife_edges.h"
 #include "interpret/experiment/learn/objective.h"
 #include "interpret/experiment/parallel.h"
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,7 +31,7 @@ struct LearnOptions {
   std::size_t bootstrap = 1000;
   /// The params that may be changed; empty: all that have a range and that labels depend on.
   std::vector<std::string> params;
-  /// Called before each of the steps, with how many of how many are done.
+  /// Called before each of the searches, with how many of how many are done.
   std::function<void(std::size_t done, std::size_t all)> step = {};
 };
 
@@ -54,13 +56,15 @@ struct Learnt {
   std::vector<LearntParam> params;
   /// On all samples, with the pack as it is and with what was learnt.
   double before = 0, after = 0;
-  /// The same on held-out folds, all of them together, each measured with what was learnt from the
-  /// others; and of each class.
+  /// The same on held-out folds, all of them together, each measured with what was learnt without
+  /// it: all that is chosen was chosen anew from the others. And of each class.
   double held_out_before = 0, held_out_after = 0;
   ConfidenceInterval held_out_gain;
   std::map<std::string, ClassScore> held_out_classes_before, held_out_classes_after;
-  /// What a fold learnt, by fold: the params that it changed.
+  /// By fold the params that the search outside it changed, before all were asked which to change.
   std::vector<std::vector<ParamValue>> by_fold;
+  /// By fold what was learnt without it: with this it was measured, whatever is reported.
+  std::vector<std::vector<ParamValue>> learnt_without;
   /// Why the pack stays as it is, or empty.
   std::string reason;
   /// Of the pack with what was learnt.
@@ -75,19 +79,28 @@ struct Learnt {
 ///
 /// `parts` are the samples of each held-out fold, by number. The search is made on all samples and
 /// on those outside each fold; only params that at least half of the folds change the same way are
-/// changed in the end, all folds are searched once more with these alone, and if the result is not
-/// better on the held-out folds than the pack, the pack stays as it is.
+/// changed in the end, and all folds are searched once more with these alone (ParamFitter::fit).
+///
+/// So all folds have a say in what is changed, and none can judge it. Therefore everything is
+/// learnt again without each fold, with kInnerFolds folds of the other samples, and the fold is
+/// measured with that. If the folds are not better that way than with the pack, the pack stays as
+/// it is. (Varma and Simon 2006, Bias in error estimation when using cross-validation for model
+/// selection: this is their nested cross-validation.)
 ///
 /// The same for the same input, seed and parts at any number of threads. Errors, without a value:
 /// R206 unknown params, R283 a class of the objective that no truth has, R282 folds that leave
 /// nothing to learn from. Warnings: R285 a fold without an object of a class that others have.
 Checked<Learnt> learn_params(const RuleBase& rules, std::span<const Sample> samples,
-                             std::span<const std::vector<std::size_t>> parts,
-                             const LearnOptions& options,
+                             std::span<const SamplePart> parts, const LearnOptions& options,
                              const ForEachShare& for_each = for_each_in_turn);
 
-/// Parts that hold out so many samples each, drawn by the seed; of 0 folds one sample each.
-std::vector<std::vector<std::size_t>> folds_of(std::size_t samples, std::size_t folds,
-                                               std::uint64_t seed);
+/// So many folds decide within what is learnt from; fewer where there are fewer samples.
+inline constexpr std::size_t kInnerFolds = 5;
+
+/// What learn_params() learns without a fold, from all of these samples, to be measured on others:
+/// nothing from fewer than two, or where they have no object of the objective. Error: R206.
+Checked<std::vector<ParamValue>> fit_params(const RuleBase& rules, std::span<const Sample> samples,
+                                            const LearnOptions& options,
+                                            const ForEachShare& for_each = for_each_in_turn);
 
 }  // namespace oriel

@@ -11,8 +11,6 @@ namespace oriel {
 
 namespace {
 
-/// What is gained by less is rounding.
-constexpr double kLeastGain = 1e-9;
 /// Stretches that are narrower than this share of the range are no place to stand on.
 constexpr double kNarrowestPlateau = 0.005;
 /// So many of the best plateaus are tried where the pack would be refused with the first.

@@ -8,6 +8,9 @@
 
 namespace oriel {
 
+/// What is gained by less is rounding.
+inline constexpr double kLeastGain = 1e-9;
+
 /// A search for the best setting on some samples.
 struct SearchRun {
   /// Those whose outcomes count.

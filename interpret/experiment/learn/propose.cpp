@@ -172,7 +172,7 @@ class StumpFinder {
 class Proposer {
  public:
   Proposer(const RuleBase& rules, std::span<const Sample> samples,
-           std::span<const std::vector<std::size_t>> parts, const ProposeOptions& options,
+           std::span<const SamplePart> parts, const ProposeOptions& options,
            const ForEachShare& for_each)
       : rules_(rules),
         pack_(rules.pack()),
@@ -223,18 +223,12 @@ class Proposer {
     return value(outcomes, numbers) - value(base_, numbers);
   }
 
-  [[nodiscard]] std::vector<std::size_t> outside(const std::vector<std::size_t>& part) const {
-    std::vector<std::size_t> rest;
-    for (std::size_t i = 0; i < samples_.size(); ++i)
-      if (std::ranges::find(part, i) == part.end()) rest.push_back(i);
-    return rest;
-  }
-
   /// Proposed if it pays outside of half of the folds, and on these folds.
   void judge(Proposal proposal, const Outcomes& outcomes) {
-    std::vector<std::size_t> held, all = outside({});
-    for (const auto& part : parts_) {
-      if (gain(outcomes, outside(part)) <= options_.penalty) continue;
+    const SamplePart all = all_samples(samples_.size());
+    SamplePart held;
+    for (const SamplePart& part : parts_) {
+      if (gain(outcomes, outside(part, all)) <= options_.penalty) continue;
       ++proposal.folds;
       held.insert(held.end(), part.begin(), part.end());
     }
@@ -341,7 +335,7 @@ class Proposer {
   const RuleBase& rules_;
   const Pack& pack_;
   std::span<const Sample> samples_;
-  std::span<const std::vector<std::size_t>> parts_;
+  std::span<const SamplePart> parts_;
   const ProposeOptions& options_;
   const ForEachShare& for_each_;
   LabelSet labels_;
@@ -401,8 +395,8 @@ rules::YamlNode rule_of(const Proposal& proposal, const rules::YamlNode* rule) {
 }  // namespace
 
 std::vector<Proposal> propose(const RuleBase& rules, std::span<const Sample> samples,
-                              std::span<const std::vector<std::size_t>> parts,
-                              const ProposeOptions& options, const ForEachShare& for_each) {
+                              std::span<const SamplePart> parts, const ProposeOptions& options,
+                              const ForEachShare& for_each) {
   return Proposer(rules, samples, parts, options, for_each).run();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/experiment/learn/folds.h"
 #include "interpret/experiment/learn/objective.h"
 #include "interpret/experiment/parallel.h"
 #include "interpret/experiment/sample.h"
@@ -42,8 +43,7 @@ struct ProposeOptions {
 /// the fold; proposed is what pays outside at least half of the folds, and on these folds together.
 /// The best first. The same at any number of threads.
 std::vector<Proposal> propose(const RuleBase& rules, std::span<const Sample> samples,
-                              std::span<const std::vector<std::size_t>> parts,
-                              const ProposeOptions& options,
+                              std::span<const SamplePart> parts, const ProposeOptions& options,
                               const ForEachShare& for_each = for_each_in_turn);
 
 /// The rules of the proposals, each as a list of one that can be put under `rules:` of a pack that

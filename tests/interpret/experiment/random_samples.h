@@ -58,6 +58,30 @@ inline std::vector<std::string> labels_of(const RuleBase& rules, const Sample& s
   return labels;
 }
 
+/// Buildings of which is true what `truth` says, each feature in a box apart from the others.
+inline std::vector<Sample> samples_labelled_by(const RuleBase& truth, int count,
+                                               int features = 20) {
+  std::vector<Sample> samples;
+  for (int i = 0; i < count; ++i) {
+    Sample sample = random_sample(static_cast<std::uint64_t>(i), features);
+    sample.truth.clear();
+    const auto labels = labels_of(truth, sample);
+    for (std::size_t row = 0; row < labels.size(); ++row) {
+      const auto x = static_cast<double>(3 * row);
+      sample.boxes[row] = {{x, 0, 0}, {x + 1, 1, 1}};
+      if (labels[row].empty()) continue;
+      ExpectedObject object;
+      object.building = "house";
+      object.id = fmt::format("o{}", row);
+      object.label = labels[row];
+      object.box = sample.boxes[row];
+      sample.truth.push_back(std::move(object));
+    }
+    samples.push_back(std::move(sample));
+  }
+  return samples;
+}
+
 inline bool is_same(const std::map<std::string, ClassScore>& p,
                     const std::map<std::string, ClassScore>& q) {
   return std::ranges::equal(p, q, [](const auto& a, const auto& b) {

@@ -3,6 +3,7 @@
 #include "interpret/experiment/learn/ask.h"
 #include "interpret/experiment/learn/learning_set.h"
 #include "interpret/experiment/learn/learnt_pack.h"
+#include "interpret/experiment/learn/param_fit.h"
 #include "interpret/experiment/learn/plateau.h"
 #include "tests/interpret/experiment/random_samples.h"
 
@@ -37,29 +38,6 @@ RuleBase sills() { return load_pack(kSillPack, "sills.yaml").value.value(); }
 
 RuleBase with(const RuleBase& rules, std::vector<ParamValue> values) {
   return with_params(rules, std::span<const ParamValue>(values)).value.value();
-}
-
-/// Buildings of which is true what `truth` says.
-std::vector<Sample> samples_labelled_by(const RuleBase& truth, int count) {
-  std::vector<Sample> samples;
-  for (int i = 0; i < count; ++i) {
-    Sample sample = random_sample(static_cast<std::uint64_t>(i), 20);
-    sample.truth.clear();
-    const auto labels = labels_of(truth, sample);
-    for (std::size_t row = 0; row < labels.size(); ++row) {
-      const auto x = static_cast<double>(3 * row);
-      sample.boxes[row] = {{x, 0, 0}, {x + 1, 1, 1}};
-      if (labels[row].empty()) continue;
-      ExpectedObject object;
-      object.building = "house";
-      object.id = fmt::format("o{}", row);
-      object.label = labels[row];
-      object.box = sample.boxes[row];
-      sample.truth.push_back(std::move(object));
-    }
-    samples.push_back(std::move(sample));
-  }
-  return samples;
 }
 
 Learnt learnt_from(const RuleBase& rules, const std::vector<Sample>& samples,
@@ -149,6 +127,50 @@ TEST_SUITE("interpret/experiment/learn") {
     }
   }
 
+  TEST_CASE("what a fold is measured with does not depend on its truth") {
+    const RuleBase rules = with(sills(), {{"sill", 3.0}});
+    auto samples = samples_labelled_by(sills(), 8);
+    const auto parts = folds_of(samples.size(), 4, 1);
+    const auto learnt = learn_params(rules, samples, parts, {}).value.value();
+    REQUIRE(learnt.learnt_without.size() == 4);
+    CHECK(!learnt.learnt_without[0].empty());
+    for (const std::size_t i : parts[0]) samples[i].truth.resize(samples[i].truth.size() / 2);
+    const auto other = learn_params(rules, samples, parts, {}).value.value();
+    CHECK(other.learnt_without[0] == learnt.learnt_without[0]);
+    std::vector<Sample> others;
+    for (const std::size_t i : outside(parts[0], all_samples(samples.size())))
+      others.push_back(samples[i]);
+    CHECK(fit_params(rules, others, {}).value == learnt.learnt_without[0]);
+  }
+
+  TEST_CASE("nothing is fitted to samples without an object of the objective") {
+    const RuleBase rules = sills();
+    auto samples = samples_labelled_by(rules, 3);
+    for (Sample& sample : samples)
+      std::erase_if(sample.truth, [](const ExpectedObject& o) { return o.label == "door"; });
+    LearnOptions options;
+    options.objective = Objective::f1_of("door");
+    const auto fitted = fit_params(rules, samples, options);
+    REQUIRE(fitted.value);
+    CHECK(fitted.value->empty());
+    CHECK(fit_params(rules, {}, options).value == std::vector<ParamValue>{});
+  }
+
+  TEST_CASE("folds part samples evenly and the same way again") {
+    for (const std::size_t folds : {0, 2, 5, 30}) {
+      const auto parts = folds_of(13, folds, 7);
+      CHECK(parts == folds_of(13, folds, 7));
+      CHECK(parts.size() == (folds == 0 ? 13 : std::min<std::size_t>(folds, 13)));
+      CHECK(samples_of_parts(parts) == all_samples(13));
+      for (const SamplePart& part : parts) {
+        CHECK(std::ranges::is_sorted(part));
+        CHECK(part.size() + outside(part, all_samples(13)).size() == 13);
+        CHECK(part.size() <= parts.back().size() + 1);
+      }
+    }
+    CHECK(folds_of(0, 5, 1).empty());
+  }
+
   TEST_CASE("the learnt pack labels as the params that were learnt") {
     const RuleBase residential = load_pack_file("residential").value.value();
     const auto samples = samples_labelled_by(residential, 8);
@@ -177,7 +199,7 @@ TEST_SUITE("interpret/experiment/learn") {
       std::jthread other(half, 1);
       half(0);
     };
-    const auto parts = folds_of(samples.size(), 0, 1);
+    const auto parts = folds_of(samples.size(), 4, 1);
     const auto one = learn_params(rules, samples, parts, {}).value.value();
     const auto two = learn_params(rules, samples, parts, {}, by_two).value.value();
     CHECK(to_json(one, rules) == to_json(two, rules));

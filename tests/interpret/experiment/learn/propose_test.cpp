@@ -23,25 +23,7 @@ std::string widths(const std::string& require) {
 
 /// Buildings of which is true what a pack says.
 std::vector<Sample> true_samples(const RuleBase& truth) {
-  std::vector<Sample> samples;
-  for (std::uint64_t i = 0; i < 8; ++i) {
-    Sample sample = random_sample(i, 25);
-    sample.truth.clear();
-    const auto labels = labels_of(truth, sample);
-    for (std::size_t row = 0; row < labels.size(); ++row) {
-      const auto x = static_cast<double>(3 * row);
-      sample.boxes[row] = {{x, 0, 0}, {x + 1, 1, 1}};
-      if (labels[row].empty()) continue;
-      ExpectedObject object;
-      object.building = "house";
-      object.id = fmt::format("o{}", row);
-      object.label = labels[row];
-      object.box = sample.boxes[row];
-      sample.truth.push_back(std::move(object));
-    }
-    samples.push_back(std::move(sample));
-  }
-  return samples;
+  return samples_labelled_by(truth, 8, 25);
 }
 
 std::vector<Proposal> proposals_for(const std::string& pack, const std::vector<Sample>& samples) {
