@@ -155,7 +155,7 @@ class ExperimentAtWork {
       measured_.keep(key, *measured);
     }
     for (const std::string& sentence : measured->left_out)
-      results.issues.push_back(plan_.rules.spot.issue(Severity::warning, Code::R281, sentence));
+      results.issues.push_back(spot_of(part).issue(Severity::warning, Code::R281, sentence));
     auto& value = *results.value;
     value.rows.insert(value.rows.end(), measured->rows.begin(), measured->rows.end());
     value.tables.insert(value.tables.end(), measured->tables.begin(), measured->tables.end());

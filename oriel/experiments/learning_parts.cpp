@@ -105,7 +105,7 @@ ResultRows rows_against_own(ExperimentPart part, const std::vector<SamplePart>& 
   ResultRows rows(part, set.plan->name, measure(context.rules, held_out, context.for_each),
                   static_cast<std::size_t>(context.plan.bootstrap));
   RunSetting own;
-  own.name = kOwnName;
+  own.name = kBaselineName;
   add_learnt_rows(rows.baseline_rows(context.plan.rules.pack, own), measured);
   return rows;
 }

@@ -36,7 +36,7 @@ class PartAtWork {
         rows_(part, set.plan->name, measure(context.rules, set.samples, context.for_each),
               samples_of_bootstrap(context.plan)) {
     RunSetting own;
-    own.name = kOwnName;
+    own.name = kBaselineName;
     add_rows(rows_.baseline_rows(context.plan.rules.pack, own), measured_);
   }
 
@@ -104,7 +104,6 @@ void add_variants(const std::vector<PlannedRun>& runs, const SampleSet& set,
   };
   for (const PlannedRun& run : runs) {
     if (const auto pack = with_variant(context.rules, run.variant); !pack.value) {
-      measure_taken();
       work.leave_out(run.setting, pack.issues);
       continue;
     }

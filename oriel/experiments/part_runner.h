@@ -11,9 +11,6 @@
 
 namespace oriel {
 
-/// How the baseline of every part is called.
-inline constexpr const char* kOwnName = "as it is";
-
 /// What the parts of an experiment need: its rules with their params, and how to get samples.
 struct PartContext {
   const ExperimentPlan& plan;

@@ -102,10 +102,13 @@ struct AblatePlan {
   PlanSpot spot;
 };
 
+/// How the run of the experiment's own rules and options is called, with which each part compares.
+inline constexpr const char* kBaselineName = "as it is";
+
 /// What is compared with the experiment's own rules and options.
 struct ComparedPlan {
   std::string name;
-  /// Of this pack, or else of the experiment's.
+  /// Of this pack, or else of the experiment's with its params, of which some have other values.
   RulesPlan rules;
   SegmentationPlan options;
   PlanSpot spot;
@@ -127,7 +130,7 @@ struct DisturbancePlan {
 
 struct StabilityPlan {
   std::vector<DisturbancePlan> disturbances;
-  /// How often what is random is drawn; what comes of it is summed.
+  /// How often what is random is drawn; each draw is a run.
   int times = 1;
   PlanSpot spot;
 };
@@ -140,7 +143,7 @@ struct LearnPlan {
   std::string objective = "macro_f1";
   /// How many buildings are learnt from, ascending; of `learning_curve`.
   std::vector<int> buildings;
-  /// How often these are drawn.
+  /// How often these are drawn; each draw is a run.
   int times = 1;
   PlanSpot spot;
 };
@@ -168,7 +171,7 @@ struct ExperimentPlan {
   std::vector<FilePattern> count_as_paper;
 };
 
-/// The most runs that a part may have.
+/// The most runs that a sweep may have.
 inline constexpr std::size_t kMostRuns = 100'000;
 
 /// The experiment in `text`, called `file` in places. All findings come at once, each with its

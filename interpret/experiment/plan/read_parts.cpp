@@ -12,9 +12,24 @@ namespace {
 
 constexpr Dimension kOfLength{1, 0}, kOfAngle{0, 1}, kOfShare{};
 
+/// A param that is set already gets the other value.
+void set_param(ParamValue setting, std::vector<ParamValue>& params) {
+  const auto found = std::ranges::find(params, setting.name, &ParamValue::name);
+  if (found == params.end())
+    params.push_back(std::move(setting));
+  else
+    *found = std::move(setting);
+}
+
 void read_compared(const YamlEntry& entry, PlanReader& reader) {
   ComparedPlan compared;
   compared.name = entry.key.text;
+  if (compared.name.empty() || compared.name == kBaselineName)
+    reader.findings.error(
+        Code::R240, entry.key.span,
+        fmt::format("a run needs a name of its own, and '{}' is the experiment's own rules and "
+                    "options",
+                    kBaselineName));
   compared.spot = reader.spot(entry.key.span);
   compared.rules = reader.plan.rules;
   if (entry.value.kind == YamlNode::Kind::scalar) {
@@ -32,7 +47,7 @@ void read_compared(const YamlEntry& entry, PlanReader& reader) {
   const YamlNode* params = section.find("params");
   if (params != nullptr && compared.rules.base)
     for (ParamValue& setting : read_plan_params(*params, *compared.rules.base, reader))
-      compared.rules.params.push_back(std::move(setting));
+      set_param(std::move(setting), compared.rules.params);
   read_segmentation(entry.value, compared.options, reader);
   if (entry.value.entries.empty())
     reader.findings.error(Code::R287, entry.key.span,

@@ -78,10 +78,17 @@ class SweepReader {
         if (param.range) add(param, param.range->first, param.range->second, {});
     } else {
       for (const YamlNode* name : texts_of(node, "'params'", reader_.findings))
-        if (const Param* param = find_plan_param(*name, base_, reader_)) add_whole(*param, *name);
+        if (const Param* param = find_plan_param(*name, base_, reader_)) add_once(*param, *name);
     }
     if (sweep_.params.empty() && !reader_.findings.has_errors())
       reader_.findings.error(Code::R287, node.span, "no param is swept");
+  }
+
+  void add_once(const Param& param, const YamlNode& name) {
+    const auto& all = sweep_.params;
+    if (std::ranges::find(all, param.name, &SweptParam::name) == all.end())
+      return add_whole(param, name);
+    reader_.findings.error(Code::R240, name.span, fmt::format("'{}' is swept already", param.name));
   }
 
   void add_whole(const Param& param, const YamlNode& name) {

@@ -144,6 +144,18 @@ TEST_SUITE("interpret/experiment/plan") {
     CHECK(plan.compare[1].rules.params == std::vector<ParamValue>{{"step", 0.5}});
   }
 
+  TEST_CASE("a compared entry replaces a param that the experiment sets") {
+    const auto checked = load_experiment(
+        experiment_with("compare: {wide: {params: {step: 0.5 m}}}\n",
+                        "{pack: residential, params: {step: 0.4 m, narrowest: 0.3 m}}"),
+        "t.yaml");
+    REQUIRE(checked.value);
+    CHECK(checked.value->compare[0].rules.params ==
+          std::vector<ParamValue>{{"step", 0.5}, {"narrowest", 0.3}});
+    const RulesPlan& rules = checked.value->compare[0].rules;
+    CHECK(with_params(*rules.base, rules.params).value);
+  }
+
   TEST_CASE("disturbances are named by their amount and its unit") {
     const ExperimentPlan plan = plan_of(
         "stability: {noise: [5 mm, 2 cm], triangulation: true, missing_faces: 5 %, tolerances: "
