@@ -3,7 +3,6 @@
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
 #include "cli/terminal/logging.h"
-#include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/step_progress.h"
 #include "cli/version/version_text.h"
@@ -46,29 +45,6 @@ struct ExperimentArguments {
   }
 };
 
-/// The version and the commit, on one line.
-std::string program_name() {
-  const std::string text = version_text();
-  const std::size_t first = text.find('\n'), second = text.find('\n', first + 1);
-  return text.substr(0, first) + ", " + text.substr(first + 1, second - first - 1);
-}
-
-/// Files of data sets that cannot be read weigh more than what the plan says of them.
-ExitCode exit_code_of(const std::vector<Issue>& issues) {
-  ExitCode code = ExitCode::clean;
-  for (const Issue& issue : issues) {
-    if (issue.severity == Severity::note) continue;
-    // What stored features lack is said, and measured as it is.
-    const bool is_of_plan = to_string(issue.code).starts_with("R") || issue.code == Code::E151 ||
-                            issue.code == Code::E121;
-    if (issue.severity == Severity::error)
-      code = graver(code, is_of_plan ? ExitCode::rules : ExitCode::input);
-    else if (!is_of_plan)
-      code = graver(code, ExitCode::set_aside);
-  }
-  return code;
-}
-
 /// "FILE: experiment NAME, 2 sets; sweep, compare".
 std::string summary_of(const std::string& file, const ExperimentPlan& plan) {
   std::string parts;
@@ -102,7 +78,9 @@ void refuse_other_results(const ExperimentArguments& arguments, const Experiment
   std::ifstream file(manifest);
   if (!file || arguments.is_forced) return;
   const auto json = nlohmann::json::parse(file, nullptr, false);
-  const std::string other = json.is_object() ? json.value("name", std::string()) : std::string();
+  const auto name = json.is_object() ? json.find("name") : json.end();
+  const std::string other =
+      name != json.end() && name->is_string() ? name->get<std::string>() : std::string();
   if (other == plan.name) return;
   refuse_usage("-o", Code::E604,
                fmt::format("{} has the results of another experiment{}; --force replaces them",
@@ -161,8 +139,9 @@ ExitCode run(const ExperimentArguments& arguments) {
   if (!results.value) return code;
   const auto files = report_files(*results.value);
   write_files(arguments.folder, files);
-  run_log().info("{} in {}, of {}", counted(files.size(), "file"), printable(arguments.folder),
-                 counted(results.value->rows.size(), "row"));
+  const std::size_t rows = results.value->rows.size();
+  run_log().info("{} written to {}{}", counted(files.size(), "file"), printable(arguments.folder),
+                 rows == 0 ? "" : fmt::format("; results.csv has {}", counted(rows, "row")));
   return code;
 }
 
@@ -188,10 +167,7 @@ void add_experiment_run(CLI::App& experiment, Action& action) {
                       "of the results)");
   command->add_flag("--force", arguments->is_forced,
                     "Replace the results of another experiment in the folder");
-  command
-      ->add_option("--progress", arguments->progress,
-                   "Show on stderr: bar, json (lines) or none (default: bar on a terminal)")
-      ->check(one_of({"bar", "json", "none"}));
+  add_step_progress_argument(*command, arguments->progress);
   command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
   command->footer("Example:\n  oriel experiment run sweep.yaml -o results/ -j 0");
   command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });

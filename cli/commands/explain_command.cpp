@@ -271,8 +271,8 @@ ExitCode work(ExplainArguments& arguments) {
   settle_inputs(arguments, report);
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
-  const ExitCode before =
-      take_corrections(arguments.corrections_file, *rules, arguments, report, ExitCode::clean);
+  ExitCode before = ExitCode::clean;
+  arguments.corrections = load_corrections(arguments.corrections_file, *rules, report, before);
   if (arguments.surface >= 0) return graver(before, explain_surfaces(arguments, *rules));
   if (!arguments.at.empty()) return graver(before, explain_place(arguments, *rules));
   if (arguments.feature.empty()) return graver(before, explain_buildings(arguments, *rules));

@@ -189,11 +189,11 @@ ExitCode work(LabelArguments& arguments) {
   if (!rules) return ExitCode::rules;
   arguments.seeks_features = rules->rule_count() > 0;
   arguments.gives_only_features = arguments.out.empty();
-  const ExitCode before =
-      take_corrections(arguments.corrections_file, *rules, arguments, report, ExitCode::clean);
+  ExitCode code = ExitCode::clean;
+  arguments.corrections = load_corrections(arguments.corrections_file, *rules, report, code);
   BatchRunner runner(arguments, &*rules, report);
   Labeller command(arguments, *rules, runner);
-  ExitCode code = graver(before, runner.run(command));
+  code = graver(code, runner.run(command));
   if (runner.was_done()) return code;
   if (const auto lacking = command.lacking_columns()) report.add(*lacking);
   // A run that goes on, or takes results, has not seen all buildings.

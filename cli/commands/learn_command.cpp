@@ -6,6 +6,8 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
+#include "cli/terminal/step_progress.h"
+#include "interpret/language/suggest.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
@@ -13,6 +15,7 @@
 #include "oriel/experiments/learn.h"
 #include "oriel/rules.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +26,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -30,13 +34,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Words of --objective besides the classes of the pack.
+constexpr const char* kMacroF1 = "macro_f1";
+constexpr const char* kCost = "cost";
+
 struct LearnArguments {
   std::vector<std::string> records;
   std::vector<std::string> truth;
   std::string corrections;
   std::string rules = "residential";
   std::string out;
-  std::string objective = "macro_f1";
+  std::string objective = kMacroF1;
   std::string costs;
   std::vector<std::string> params;
   std::size_t folds = 5;
@@ -47,16 +55,29 @@ struct LearnArguments {
   std::size_t questions = 0;
   bool proposes = false;
   int jobs = 1;
+  std::string progress;
   bool is_json = false;
   bool is_verbose = false;
 };
 
-/// Nothing if its file of costs is wrong, which is reported.
-std::optional<Objective> objective_of(const LearnArguments& arguments, Report& report) {
-  constexpr std::string_view kF1 = "f1:";
-  if (arguments.objective.starts_with(kF1))
-    return Objective::f1_of(arguments.objective.substr(kF1.size()));
-  if (arguments.objective != "cost") return Objective::macro_f1();
+/// What the word means; a word that means nothing is wrong usage. Nothing if the file of costs is
+/// wrong, which is reported.
+std::optional<Objective> objective_of(const LearnArguments& arguments, const RuleBase& rules,
+                                      Report& report) {
+  const std::string& word = arguments.objective;
+  if (word == kMacroF1) return Objective::macro_f1();
+  if (word != kCost) {
+    const std::vector<std::string> labels = rules.labels();
+    if (std::ranges::find(labels, word) != labels.end()) return Objective::f1_of(word);
+    std::vector<std::string> known = labels;
+    known.insert(known.end(), {kMacroF1, kCost});
+    const std::string meant = rules::nearest(word, known);
+    throw CLI::ValidationError(
+        "--objective",
+        fmt::format("'{}' is none of {}, {} and the classes of the pack ({}){}", printable(word),
+                    kMacroF1, kCost, printable(fmt::format("{}", fmt::join(labels, ", "))),
+                    meant.empty() ? "" : "; did you mean '" + printable(meant) + "'?"));
+  }
   auto costs = read_costs_file(arguments.costs);
   report.add(costs.issues);
   if (!costs.value) return std::nullopt;
@@ -105,62 +126,74 @@ std::string proposals_text(const LearnArguments& arguments, const RuleBase& rule
          to_yaml(proposals, merged.value.value_or(""));
 }
 
-/// What people say against the rules, as far as it speaks of the pack's classes.
-Corrections corrections_of(const LearnArguments& arguments, const RuleBase& rules, Report& report) {
-  if (arguments.corrections.empty()) return {};
-  auto read = read_corrections(arguments.corrections);
-  report.add(read.issues);
-  if (!read.value) return {};
-  report.add(drop_unknown_classes(*read.value, rules.labels()));
-  return Corrections(*read.value);
+/// What is printed of what was learnt, with the further lists that were asked for.
+std::string text_of(const LearnArguments& arguments, const RuleBase& rules,
+                    const std::vector<Sample>& samples,
+                    const std::vector<std::vector<std::size_t>>& parts, const Objective& objective,
+                    const Learnt& learnt) {
+  std::string text = arguments.is_json ? to_json(learnt, rules) + "\n" : to_text(learnt, rules);
+  if (arguments.questions > 0)
+    text += "answers that would help most:\n" +
+            to_text(open_questions(rules, samples, learnt, arguments.questions));
+  if (arguments.proposes) text += proposals_text(arguments, rules, samples, parts, objective);
+  return text;
+}
+
+LearnOptions learn_options(const LearnArguments& arguments, const Objective& objective) {
+  LearnOptions options;
+  options.objective = objective;
+  options.penalty = arguments.penalty;
+  options.restarts = arguments.restarts;
+  options.seed = arguments.seed;
+  options.params = arguments.params;
+  return options;
 }
 
 ExitCode learn(const LearnArguments& arguments, Report& report) {
   const auto rules = load_rules({arguments.rules, {}}, report);
   if (!rules) return ExitCode::rules;
-  const auto objective = objective_of(arguments, report);
-  if (!objective) return ExitCode::input;
-  const Corrections corrections = corrections_of(arguments, *rules, report);
-  const auto samples = read_samples(arguments.records, arguments.truth, *rules, &corrections);
+  const auto objective = objective_of(arguments, *rules, report);
+  if (!objective) return ExitCode::rules;
+  ExitCode code = ExitCode::clean;
+  const auto corrections = load_corrections(arguments.corrections, *rules, report, code);
+  const auto samples = read_samples(arguments.records, arguments.truth, *rules, corrections.get());
   report.add(samples.issues);
-  if (!samples.value) return ExitCode::input;
-  LearnOptions options;
-  options.objective = *objective;
-  options.penalty = arguments.penalty;
-  options.restarts = arguments.restarts;
-  options.seed = arguments.seed;
-  options.params = arguments.params;
-  options.step = [](std::size_t done, std::size_t all) {
-    progress_log().info("learning: step {} of {}", done + 1, all);
-  };
+  code = graver(code, exit_code_of(samples.issues));
+  if (!samples.value) return code;
+  // Opened first: a place that cannot be written is no surprise after a long search.
+  std::optional<OutputFile> pack;
+  if (!arguments.out.empty()) pack.emplace(arguments.out);
   const auto parts = folds_of(samples.value->size(), arguments.leaves_one_out ? 0 : arguments.folds,
                               arguments.seed);
+  std::optional<StepProgress> progress(progress_style_of(arguments.progress));
+  LearnOptions options = learn_options(arguments, *objective);
+  options.step = [&](std::size_t done, std::size_t all) { progress->show("learning", done, all); };
   const auto learnt =
       learn_params(*rules, *samples.value, parts, options, shares_in_arena(arguments.jobs));
+  progress.reset();
   report.add(learnt.issues);
-  if (!learnt.value) return ExitCode::input;
-  if (!arguments.out.empty())
-    write_file(arguments.out, learnt_pack(*learnt.value, *rules, name_of_pack(arguments.out),
-                                          extended_name(arguments.rules)));
-  std::string text =
-      arguments.is_json ? to_json(*learnt.value, *rules) + "\n" : to_text(*learnt.value, *rules);
-  if (arguments.questions > 0)
-    text += "answers that would help most:\n" +
-            to_text(open_questions(*rules, *samples.value, *learnt.value, arguments.questions));
-  if (arguments.proposes)
-    text += proposals_text(arguments, *rules, *samples.value, parts, *objective);
-  print_out(text, arguments.is_json);
-  return ExitCode::clean;
+  code = graver(code, exit_code_of(learnt.issues));
+  if (!learnt.value) return code;
+  if (pack) {
+    pack->append(learnt_pack(*learnt.value, *rules, name_of_pack(arguments.out),
+                             extended_name(arguments.rules)));
+    pack->commit();
+  }
+  print_out(text_of(arguments, *rules, *samples.value, parts, *objective, *learnt.value),
+            arguments.is_json);
+  return code;
 }
 
 ExitCode work(LearnArguments& arguments) {
   if (arguments.truth.empty() && arguments.corrections.empty()) throw CLI::RequiredError("--truth");
-  if (arguments.objective == "cost" && arguments.costs.empty())
+  if (arguments.objective == kCost && arguments.costs.empty())
     throw CLI::ValidationError("--objective", "cost needs --costs FILE");
-  if (arguments.proposes && arguments.objective == "cost")
+  if (arguments.objective != kCost && !arguments.costs.empty())
+    throw CLI::ValidationError("--costs", "works only with --objective cost");
+  if (arguments.proposes && arguments.objective == kCost)
     throw CLI::ValidationError("--propose", "looks at F1, not at costs");
   if (arguments.is_json && (arguments.proposes || arguments.questions > 0))
-    throw CLI::ValidationError("--json", "has neither --ask nor --propose");
+    throw CLI::ValidationError("--json", "does not work with --ask and --propose");
   Report report(arguments.is_verbose);
   read_once(arguments.records, report);
   arguments.truth = truth_files(arguments.truth);
@@ -180,24 +213,20 @@ ExitCode work(LearnArguments& arguments) {
 void add_search_arguments(CLI::App& command, LearnArguments& arguments) {
   command
       .add_option("--objective", arguments.objective,
-                  "What is made as large as possible: macro_f1, f1:CLASS, or cost for the least "
-                  "cost of errors")
-      ->check([](const std::string& text) {
-        const bool is_f1 = text.starts_with("f1:") && text.size() > 3;
-        return text == "macro_f1" || text == "cost" || is_f1
-                   ? std::string()
-                   : "'" + text + "' is none of macro_f1, f1:CLASS, cost";
-      })
+                  "What is made best: macro_f1, a class for its F1, or cost for the least cost of "
+                  "errors")
       ->capture_default_str();
   command.add_option("--costs", arguments.costs,
                      "What errors cost: lines of truth,predicted,cost; - for nothing");
   command.add_option("--params", arguments.params, "The params that may be changed; default: all")
       ->delimiter(',');
-  command
-      .add_option("--folds", arguments.folds, "Parts of the buildings that are held out in turn")
-      ->check(count_in(2, 1000))
-      ->capture_default_str();
-  command.add_flag("--leave-one-out", arguments.leaves_one_out, "Hold out each building by itself");
+  CLI::Option* folds = command
+                           .add_option("--folds", arguments.folds,
+                                       "Parts of the buildings that are held out in turn")
+                           ->check(count_in(2, 1000))
+                           ->capture_default_str();
+  command.add_flag("--leave-one-out", arguments.leaves_one_out, "Hold out each building by itself")
+      ->excludes(folds);
   command.add_option("--penalty", arguments.penalty, "What each changed param must gain")
       ->check(number_in(0, 1))
       ->capture_default_str();
@@ -237,6 +266,7 @@ void add_learn(CLI::App& app, Action& action) {
                     "List changes of rules that would pay, as YAML for a person to judge");
   command->add_flag("--json", arguments->is_json, "Print JSON");
   add_jobs_argument(*command, arguments->jobs);
+  add_step_progress_argument(*command, arguments->progress);
   command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
   command->footer(
       "Nothing is changed that does not pay on held-out buildings.\nExample:\n  oriel segment "

@@ -266,15 +266,34 @@ void add_corrections_argument(CLI::App& command, std::string& file) {
                      "feature or point, class, by, why");
 }
 
-ExitCode take_corrections(const std::string& file, const RuleBase& rules, RunOptions& arguments,
-                          Report& report, ExitCode code) {
-  if (file.empty()) return code;
+std::shared_ptr<const Corrections> load_corrections(const std::string& file, const RuleBase& rules,
+                                                    Report& report, ExitCode& code) {
+  if (file.empty()) return nullptr;
   auto read = read_corrections(file);
   report.add(read.issues);
   const auto unknown = drop_unknown_classes(*read.value, rules.labels());
   report.add(unknown);
-  arguments.corrections = std::make_shared<Corrections>(*read.value);
-  return read.issues.empty() && unknown.empty() ? code : graver(code, ExitCode::set_aside);
+  if (!read.issues.empty() || !unknown.empty()) code = graver(code, ExitCode::set_aside);
+  return std::make_shared<Corrections>(*read.value);
+}
+
+void add_step_progress_argument(CLI::App& command, std::string& style) {
+  command
+      .add_option("--progress", style,
+                  "Show on stderr: bar, json (lines) or none (default: bar on a terminal)")
+      ->check(one_of({"bar", "json", "none"}));
+}
+
+ExitCode exit_code_of(const std::vector<Issue>& issues) {
+  ExitCode code = ExitCode::clean;
+  for (const Issue& issue : issues) {
+    const bool is_of_rules = to_string(issue.code).starts_with("R");
+    if (issue.severity == Severity::error)
+      code = graver(code, is_of_rules ? ExitCode::rules : ExitCode::input);
+    else if (issue.severity == Severity::warning && !is_of_rules && issue.code != Code::E121)
+      code = graver(code, ExitCode::set_aside);
+  }
+  return code;
 }
 
 void add_label_arguments(CLI::App& command, LabellingArguments& a) {

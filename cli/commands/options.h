@@ -7,6 +7,7 @@
 #include "kernel/io/files/format.h"
 #include "oriel/rules.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,10 +83,18 @@ void add_safe_cells_argument(CLI::App& command, bool& is_safe);
 /// Adds `--corrections FILE`.
 void add_corrections_argument(CLI::App& command, std::string& file);
 
-/// Reads corrections for labels of the pack, reports what is wrong with them, and sets them for the
-/// run; nothing for no file. The gravest exit code for it, at least `code`.
-ExitCode take_corrections(const std::string& file, const RuleBase& rules, RunOptions& arguments,
-                          Report& report, ExitCode code);
+/// Corrections for labels of the pack; null for no file. What is wrong with them is reported, and
+/// `code` is then at least set_aside.
+std::shared_ptr<const Corrections> load_corrections(const std::string& file, const RuleBase& rules,
+                                                    Report& report, ExitCode& code);
+
+/// Adds `--progress` for a run of several steps (StepProgress).
+void add_step_progress_argument(CLI::App& command, std::string& style);
+
+/// What ends a run on samples that found these: what is wrong with rules or with an experiment is
+/// ExitCode::rules, with files ExitCode::input, with a part of what they hold ExitCode::set_aside.
+/// Warnings about a choice of samples, and about counts in tables (E121), change nothing.
+ExitCode exit_code_of(const std::vector<Issue>& issues);
 
 /// Adds all that the commands share that label buildings and write them.
 void add_label_arguments(CLI::App& command, LabellingArguments& arguments);

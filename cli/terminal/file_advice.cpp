@@ -58,6 +58,14 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
+/// The file that stands where the path has a folder; empty: there is none.
+std::string file_for_folder(const std::string& path) {
+  std::error_code error;
+  fs::path folder = folder_of(path);
+  while (folder.has_relative_path() && !is_there(folder)) folder = folder.parent_path();
+  return fs::is_regular_file(folder, error) ? folder.string() : "";
+}
+
 std::string missing_folder(const std::string& path) {
   const fs::path folder = folder_of(path);
   return is_there(folder) ? "" : fmt::format("there is no folder '{}'", printable(folder.string()));
@@ -76,6 +84,9 @@ std::string advice_on(const Issue& issue) {
   const std::string& path = issue.place.file;
   std::error_code error;
   if (path.empty()) return {};
+  if (issue.code == Code::E101 || issue.code == Code::E601)
+    if (const std::string file = file_for_folder(path); !file.empty())
+      return fmt::format("'{}' is a file, not a folder", printable(file));
   if (issue.code == Code::E101) return is_there(path) ? "" : advice_on_missing(path);
   if (issue.code == Code::E601) {
     if (fs::is_directory(path, error)) return "name a file in that folder";

@@ -36,14 +36,20 @@ bool is_piped_on() {
   return ::fstat(STDOUT_FILENO, &found) == 0 && S_ISFIFO(found.st_mode);
 }
 
+}  // namespace
+
+std::string bar_text(std::uint64_t done, std::uint64_t all) {
+  constexpr std::size_t kWidth = 24;
+  const std::size_t filled = all == 0 ? kWidth : done * kWidth / all;
+  return fmt::format("[{}{}]", std::string(filled, '#'), std::string(kWidth - filled, '.'));
+}
+
 std::string time_text(double seconds) {
   const auto whole = static_cast<long>(seconds);
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
   return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
-
-}  // namespace
 
 ProgressStyle progress_style_of(const std::string& name) {
   if (!progress_log().is_on(LogLevel::info)) return ProgressStyle::none;
@@ -86,11 +92,8 @@ std::string Progress::bar() const {
   std::string text = "\r\033[K";
   const auto left = seconds_left();
   if (left) {
-    constexpr std::size_t kWidth = 24;
     const std::uint64_t done = std::min(counts_.bytes, all_bytes_);
-    const std::size_t filled = done * kWidth / all_bytes_;
-    text += fmt::format("[{}{}] {} %, ", std::string(filled, '#'),
-                        std::string(kWidth - filled, '.'), done * 100 / all_bytes_);
+    text += fmt::format("{} {} %, ", bar_text(done, all_bytes_), done * 100 / all_bytes_);
   }
   text +=
       fmt::format("{}, {} rejected, {:.0f}/s, {:.1f} MB/s", counted(counts_.buildings, "building"),

@@ -17,6 +17,11 @@ enum class ProgressStyle { bar, json, none };
 /// nothing. With --log-json there is no bar, and without level info nothing.
 ProgressStyle progress_style_of(const std::string& name);
 
+/// "[######..................]", the part that is done; all of it where there is nothing to do.
+std::string bar_text(std::uint64_t done, std::uint64_t all);
+/// "40 s", "2:05 min", "1:07 h".
+std::string time_text(double seconds);
+
 /// Counts of a run so far.
 struct ProgressCounts {
   std::uint64_t bytes = 0;  ///< read, of all inputs

@@ -40,11 +40,9 @@ void StepProgress::show(const std::string& what, std::size_t done, std::size_t a
 }
 
 std::string StepProgress::bar(double seconds_left, std::size_t done, std::size_t all) const {
-  constexpr std::size_t kWidth = 24;
-  const std::size_t filled = all == 0 ? kWidth : done * kWidth / all;
-  std::string text = fmt::format("\r\033[K[{}{}] {}: {} of {}", std::string(filled, '#'),
-                                 std::string(kWidth - filled, '.'), printable(what_), done, all);
-  if (seconds_left >= 0) text += fmt::format(", {:.0f} s left", seconds_left);
+  std::string text =
+      fmt::format("\r\033[K{} {}: {} of {}", bar_text(done, all), printable(what_), done, all);
+  if (seconds_left >= 0) text += fmt::format(", {} left", time_text(seconds_left));
   return text;
 }
 

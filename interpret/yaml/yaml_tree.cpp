@@ -249,7 +249,7 @@ std::optional<YamlNode> parse_yaml(SourceSpan where, Findings& findings) {
     return std::nullopt;
   }
   if (!builder.has_root()) {
-    findings.error(Code::R201, {where.begin, where.begin}, "the pack is empty");
+    findings.error(Code::R201, {where.begin, where.begin}, "the file is empty");
     return std::nullopt;
   }
   return builder.take_root();

@@ -69,11 +69,30 @@ std::vector<TableRow> table_rows() {
        "o.csv",
        {"--per-building", "OUT"}},
       {"score --surfaces", city, {"score", "--surfaces", "IN"}},
+      {"learn",
+       "csv",
+       {"learn", "IN", "second.csv", "--truth", "good.truth.json", "second.truth.json",
+        "--leave-one-out", "--restarts", "0", "-o", "OUT"},
+       "o.yaml"},
+      {"experiment run",
+       "experiment.yaml",
+       {"experiment", "run", "IN", "-o", "OUT"},
+       "results",
+       {},
+       {"results/report.md", "results"}},
+      {"experiment check", "experiment.yaml", {"experiment", "check", "IN"}},
       {"rules check", "yaml", {"rules", "check", "IN"}},
       {"rules fmt", "yaml", {"rules", "fmt", "IN"}},
       {"rules show", "yaml", {"rules", "show", "IN"}},
       {"rules doc", "yaml", {"rules", "doc", "IN"}},
       {"rules test", "yaml", {"rules", "test", "IN", "--junit", "OUT"}, "o.xml"}};
+}
+
+/// An experiment on the model of that name.
+std::string experiment_on(const Folder& folder, const std::string& name) {
+  return "schema: oriel-experiment/1\nname: t\nbootstrap: 1\nsets: {s: {models: " +
+         (folder / (name + ".city.json")) + ", truth: " + (folder / "good.truth.json") +
+         "}}\nrules: residential\ncompare: {n: {params: {widest_window: 2.5 m}}}\n";
 }
 
 /// The files that the rows read, by what is wrong with them, in the folder.
@@ -106,9 +125,15 @@ void write_inputs(const Folder& folder) {
   folder.write("good.yaml",
                "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}}\n"
                "rules: [{id: w, label: window, require: natural}]\n");
-  for (const char* name : {"good", "empty", "none", "rejected", "broken"})
-    folder.write(std::string(name) + ".test.yaml",
-                 "tests_for: " + std::string(name) + ".yaml\ntests: []\n");
+  for (const std::string name : {"good", "empty", "none", "rejected", "broken"}) {
+    folder.write(name + ".test.yaml", "tests_for: " + name + ".yaml\ntests: []\n");
+    folder.write(name + ".experiment.yaml", experiment_on(folder, name));
+  }
+  std::filesystem::create_directory(folder / "results");
+  folder.write("results/report.md", experiment_on(folder, "good"));
+  const std::string hip = sample("hip");
+  REQUIRE(run({"label", hip, "--features", folder / "second.csv"}).exit == 0);
+  folder.write("second.truth.json", bytes_of(replaced(hip, ".stripped.city", ".truth")));
   folder.write("s.1-500.city.json", bytes_of(house));
   REQUIRE(
       run({"split", folder / "good.city.jsonl", "--count", "1", "-o", folder / "shards"}).exit ==
@@ -149,7 +174,8 @@ std::string exit_of(const TableRow& row, const std::string& situation, const Fol
   for (std::string& word : words) {
     if (word == "IN") word = in;
     if (word.starts_with("OUT")) word = out + word.substr(3);
-    if (word == "shards/split.json" || word == "good.truth.json") word = folder / word;
+    if (word == "shards/split.json" || word.starts_with("good.") || word.starts_with("second."))
+      word = folder / word;
   }
   const Outcome outcome = run(words, around);
   CAPTURE(words);

@@ -1,5 +1,6 @@
 #include "tests/cli/command.h"
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -82,7 +83,7 @@ TEST_SUITE("cli") {
                        R"({"building": "barn", "feature": "f1", "class": "window"})"
                        "\n");
     const Outcome both = learn_with({"--truth", truth_of("house"), "--corrections", corrections});
-    CHECK(both.exit == 0);
+    CHECK(both.exit == 3);
     CHECK(both.says("E153"));
     CHECK(both.out.find("2 buildings") != std::string::npos);
   }
@@ -95,8 +96,28 @@ TEST_SUITE("cli") {
                 .exit == 0);
     const Outcome outcome = run({"learn", records, "--truth", truth_of("house"), truth_of("hip"),
                                  "--leave-one-out", "--restarts", "0"});
-    CHECK(outcome.exit == 0);
+    CHECK(outcome.exit == 3);
     CHECK_MESSAGE(outcome.says("E151"), outcome.err);
+  }
+
+  TEST_CASE("learn makes the F1 of a class or the cost of errors best") {
+    const Folder folder;
+    const std::string records = samples_labelled(folder);
+    const auto learn_for = [&](Words more) {
+      Words words{"learn",         records,           "--truth",    truth_of("house"),
+                  truth_of("hip"), "--leave-one-out", "--restarts", "0"};
+      words.insert(words.end(), more.begin(), more.end());
+      return run(words);
+    };
+    CHECK(learn_for({"--objective", "door"}).out.find("F1 of door") != std::string::npos);
+    const std::string costs = folder.write("costs.csv", "door,-,5\n-,door,1\n");
+    const Outcome cheap = learn_for({"--objective", "cost", "--costs", costs});
+    CHECK(cheap.exit == 0);
+    CHECK(cheap.out.find("cost on 2 buildings") != std::string::npos);
+    const Outcome wrong =
+        learn_for({"--objective", "cost", "--costs", folder.write("wrong.csv", "door\n")});
+    CHECK(wrong.exit == 4);
+    CHECK(wrong.says("R211"));
   }
 
   TEST_CASE("learn writes nothing where it cannot learn") {
@@ -107,15 +128,16 @@ TEST_SUITE("cli") {
       words.insert(words.begin(), {"learn", records});
       words.insert(words.end(), {"-o", out});
       const Outcome outcome = run(words);
-      CHECK(outcome.exit == 5);
+      CHECK(outcome.exit == 4);
       CHECK(outcome.err.find(code) != std::string::npos);
-      CHECK(run({"rules", "check", out}).exit == 4);
+      CHECK_FALSE(std::filesystem::exists(out));
     };
     refused({"--truth", truth_of("row")}, "R284");
     refused({"--truth", truth_of("house")}, "R282");
-    refused({"--truth", truth_of("house"), truth_of("hip"), "--objective", "f1:tower"}, "R283");
+    refused({"--truth", truth_of("house"), truth_of("hip"), "--objective", "vent"}, "R283");
     refused({"--truth", truth_of("house"), truth_of("hip"), "--params", "parpet"},
             "did you mean 'parapet'");
     CHECK(run({"learn", records, "--truth", truth_of("house"), "--objective", "best"}).exit == 2);
+    CHECK_FALSE(std::filesystem::exists(out));
   }
 }

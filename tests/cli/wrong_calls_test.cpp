@@ -76,6 +76,10 @@ void write_what_is_at_hand(const Folder& folder) {
                R"( "MultiSurface", "lod": "0", "boundaries": [[[0, 1, 2, 3]]]}]}},)"
                R"( "vertices": [[0, 0, 0], [4000, 0, 0], [4000, 3000, 0], [0, 3000, 0]]})");
   folder.write("pack.yaml", bytes_of(std::string(ORIEL_SOURCE_DIR) + "/examples/first_pack.yaml"));
+  folder.write("experiment.yaml",
+               "schema: oriel-experiment/1\nname: narrow\nsets: {houses: {models: house.city.json, "
+               "truth: house.truth.json}}\nrules: residential\n"
+               "compare: {narrow: {params: {widest_window: 2.5 m}}}\n");
   folder.write("empty.city.json", "");
   folder.write("notes.txt", "buy bricks\n");
   folder.write("plan.pdf", "%PDF-1.4\n");

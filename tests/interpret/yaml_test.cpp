@@ -19,8 +19,8 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("an empty pack is refused") {
-    CHECK(findings("") == "t.yaml:1:1: R201 the pack is empty\n\n^\n");
-    CHECK(findings("# nothing\n") == "t.yaml:1:1: R201 the pack is empty\n# nothing\n^\n");
+    CHECK(findings("") == "t.yaml:1:1: R201 the file is empty\n\n^\n");
+    CHECK(findings("# nothing\n") == "t.yaml:1:1: R201 the file is empty\n# nothing\n^\n");
   }
 
   TEST_CASE("broken YAML is refused at its place") {

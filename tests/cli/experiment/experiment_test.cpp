@@ -145,7 +145,7 @@ TEST_SUITE("cli/experiment") {
     CHECK(bytes_of(folder / "models/results.csv") == bytes_of(folder / "features/results.csv"));
     folder.write("parts.csv", "building,id,aabb_m\nhouse,f1,0;0;0;1;1;1\n");
     const Outcome poor = run_experiment_in(folder, "poor");
-    CHECK(poor.exit == 0);
+    CHECK(poor.exit == 3);
     CHECK_MESSAGE(poor.says("E151"), poor.err);
   }
 
@@ -262,6 +262,8 @@ TEST_SUITE("cli/experiment") {
     CHECK(refused.says("E604"));
     CHECK(refused.says("'other'"));
     CHECK_FALSE(fs::exists(folder / "out/results.csv"));
+    std::ofstream(folder / "out/manifest.json") << R"({"name": 3})";
+    CHECK(run_experiment_in(folder, "out").exit == 2);
     CHECK(run_experiment_in(folder, "out", {"--force"}).exit == 0);
     CHECK(run_experiment_in(folder, "out").exit == 0);
   }
