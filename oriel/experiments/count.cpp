@@ -10,19 +10,13 @@ namespace {
 
 /// The rows of the table, the paper's own first.
 std::vector<CountedHeuristics> heuristics_to_count() {
-  std::vector<CountedHeuristics> rows{{"paper", {}, {}}};
-  rows.push_back({"without fewest planes first", {}, {}});
-  rows.back().heuristics.fewest_planes_first = false;
-  rows.push_back({"without values below one", {}, {}});
-  rows.back().heuristics.values_below_one = false;
-  rows.push_back({"without different normals", {}, {}});
-  rows.back().heuristics.different_normals = false;
-  rows.push_back({"without equal features together", {}, {}});
-  rows.back().heuristics.equal_features_together = false;
-  rows.push_back({"brute force", {false, false, false, false, false}, {}});
-  rows.push_back({"paper, convex bodies untested", {}, {}});
-  rows.back().heuristics.convex_bodies_untested = true;
-  return rows;
+  return {{"paper", {}, {}},
+          {"without fewest planes first", {.fewest_planes_first = false}, {}},
+          {"without values below one", {.values_below_one = false}, {}},
+          {"without different normals", {.different_normals = false}, {}},
+          {"without equal features together", {.equal_features_together = false}, {}},
+          {"brute force", {false, false, false, false, false}, {}},
+          {"paper, convex bodies untested", {.convex_bodies_untested = true}, {}}};
 }
 
 }  // namespace
