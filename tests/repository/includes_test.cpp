@@ -69,8 +69,11 @@ std::map<std::string, std::string> included_by(const fs::path& folder) {
   return included;
 }
 
+/// The front door is what oriel/oriel.h gives, and nothing else of its folders.
 bool is_of_the_door(const std::string& header) {
-  return header.starts_with("oriel/") && header.find('/', 6) == std::string::npos;
+  static const std::set<std::string> door =
+      includes_of(fs::path(ORIEL_SOURCE_DIR) / "oriel/oriel.h");
+  return header == "oriel/oriel.h" || (header.starts_with("oriel/") && door.contains(header));
 }
 
 }  // namespace
