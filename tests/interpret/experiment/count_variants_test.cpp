@@ -134,8 +134,8 @@ TEST_SUITE("interpret/experiment") {
     for (const PackParam& param : params_of(rules))
       for (int i = 1; i < 40; ++i)
         variants.push_back(variant_with(
-            rules, {{param.name, param.range->first + (param.range->second - param.range->first) *
-                                                          i / 40}}));
+            rules, {{param.name,
+                     param.range->first + (param.range->second - param.range->first) * i / 40}}));
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       CAPTURE(seed);
       CHECK(is_as_by_itself(rules, variants, {random_sample(seed, 15)}));
