@@ -10,14 +10,14 @@ namespace {
 
 /// Every so many-th place that asks for memory is refused it, of each command others; with
 /// ORIEL_SLOW all are.
-constexpr std::size_t kStep = 32;
+constexpr std::size_t kMemoryStep = 64;
 
 }  // namespace
 
 TEST_SUITE("faults/commands") {
   TEST_CASE("memory that is refused once or for good ends a command with a word") {
     ORIEL_NEEDS_FAILING_CALLS;
-    const std::size_t step = std::getenv("ORIEL_SLOW") != nullptr ? 1 : kStep;
+    const std::size_t step = std::getenv("ORIEL_SLOW") != nullptr ? 1 : kMemoryStep;
     std::size_t first = 0;
     int runs = 0;
     for (const WritingCommand& command : writing_commands()) {

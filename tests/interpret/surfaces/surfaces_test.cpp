@@ -105,7 +105,7 @@ TEST_SUITE("interpret") {
     CHECK(verdict(pack, covered).type == "OuterFloorSurface");
   }
 
-  TEST_CASE("each of many surfaces is named as if it stood alone") {
+  TEST_CASE("slow: each of many surfaces is named as if it stood alone") {
     const RuleBase base = *load_pack_file("residential").value;
     const SurfaceTable many = many_surfaces();
     const auto verdicts = interpret_surfaces(base, many);

@@ -200,7 +200,7 @@ TEST_SUITE("kernel/segment") {
           doctest::Approx(4.0 / 3 * std::numbers::pi * 27e6).epsilon(0.01));
   }
 
-  TEST_CASE("a rough ball of ten thousand facets uses up its budget and is flagged") {
+  TEST_CASE("slow: a rough ball of ten thousand facets uses up its budget and is flagged") {
     const Building building =
         ball(71, 71, [](int i, int j) { return 30.0 + 0.5 * ((i * 7 + j * 11) % 5); });
     SegmentOptions options;
@@ -241,7 +241,7 @@ TEST_SUITE("kernel/segment") {
     CHECK(codes_of(test::mapped(near, [&](Vec3 p) { return p + far; })).contains("E501"));
   }
 
-  TEST_CASE("noise beyond the tolerances ends with the books kept or a coded issue") {
+  TEST_CASE("slow: noise beyond the tolerances ends with the books kept or a coded issue") {
     // With ORIEL_SLOW three drawings of the noise; CI takes one, as it takes long under sanitizers.
     const std::uint64_t seeds = std::getenv("ORIEL_SLOW") != nullptr ? 3 : 1;
     std::uint64_t solids = 0;

@@ -66,7 +66,8 @@ Contacts contacts_of(const CellComplex& complex, const Segmentation& segmentatio
 }
 
 TEST_SUITE("kernel/segment") {
-  TEST_CASE("contacts in random bodies of boxes are the squares that a count of cubes finds") {
+  TEST_CASE(
+      "slow: contacts in random bodies of boxes are the squares that a count of cubes finds") {
     int bodies = 0, overlapping = 0;
     for (std::uint64_t seed = 0; seed < 120; ++seed)
       for (const Order order : {Order::natural, Order::paper}) {

@@ -195,7 +195,7 @@ TEST_SUITE("kernel/segment") {
       }
   }
 
-  TEST_CASE("the complex of every building of random3dcity is sound in both orders") {
+  TEST_CASE("slow: the complex of every building of random3dcity is sound in both orders") {
     ORIEL_NEEDS_SHARED(shared);
     const test::Corpus corpus =
         test::corpus_of(test::files_in(shared / "data" / "random3dcity", ".stripped.city.json"));
@@ -213,7 +213,7 @@ TEST_SUITE("kernel/segment") {
     CHECK(unsound_rings <= 2 * 4);
   }
 
-  TEST_CASE("most complexes of surveyed buildings close and all but a few keep the volume") {
+  TEST_CASE("slow: most complexes of surveyed buildings close and all but a few keep the volume") {
     ORIEL_NEEDS_SHARED(shared);
     auto files = test::files_in(shared / "data" / "ingolstadt", ".stripped.city.json");
     files.push_back((shared / "data" / "3dbag" / "tile_5910.city.jsonl").string());

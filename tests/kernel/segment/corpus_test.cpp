@@ -54,7 +54,7 @@ TEST_SUITE("kernel/segment") {
     check_all(corpus, {1e-9, 1e-4, 100});
   }
 
-  TEST_CASE("surveyed buildings are the sum of their cells and the value of their tree") {
+  TEST_CASE("slow: surveyed buildings are the sum of their cells and the value of their tree") {
     ORIEL_NEEDS_SHARED(shared);
     test::Corpus corpus = surveyed(shared);
     CHECK(corpus.buildings.size() > 150);

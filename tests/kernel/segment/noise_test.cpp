@@ -252,7 +252,8 @@ TEST_SUITE("kernel/segment") {
     check_nearly_all_found(recall_of(shared / "data" / "ingolstadt", 0.005, for_5_mm()), 10);
   }
 
-  TEST_CASE("noise hides hardly a window or door of generated houses, whole or in triangles") {
+  TEST_CASE(
+      "slow: noise hides hardly a window or door of generated houses, whole or in triangles") {
     for (const auto& more : {std::vector<const char*>{}, {"--triangulate"}}) {
       check_all_found(recall_of_generated(more, 0.001, {}), 800);
       check_nearly_all_found(recall_of_generated(more, 0.005, for_5_mm()), 800);

@@ -36,9 +36,9 @@ void set_features(generator::Options& options, std::initializer_list<generator::
 }
 
 TEST_SUITE("kernel/validate") {
-  TEST_CASE("a hundred houses of the generator are valid") { check_generated(100); }
+  TEST_CASE("slow: a hundred houses of the generator are valid") { check_generated(100); }
 
-  TEST_CASE("houses of the generator with added things of a kind are valid") {
+  TEST_CASE("slow: houses of the generator with added things of a kind are valid") {
     for (const std::string_view kind :
          {"solar_panel panel on roof size 1.7x1x0.06", "skylight block on roof size 0.8x0.8x0.3",
           "window hole on roof size 0.6x0.8x0.1", "niche hole on wall size 1x1.2x1.2",

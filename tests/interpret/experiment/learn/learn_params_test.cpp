@@ -189,7 +189,7 @@ TEST_SUITE("interpret/experiment/learn") {
       CHECK(labels_of(*pack.value, sample) == labels_of(with(residential, values), sample));
   }
 
-  TEST_CASE("threads change nothing that is learnt") {
+  TEST_CASE("slow: threads change nothing that is learnt") {
     const RuleBase rules = with(sills(), {{"sill", 3.0}, {"near", 1.5}});
     const auto samples = samples_labelled_by(sills(), 9);
     const ForEachShare by_two = [](std::size_t count, const auto& work) {
