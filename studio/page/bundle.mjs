@@ -1,0 +1,31 @@
+// Called by bundle.sh: bundles src/main_studio.ts and src/main_view.ts into dist/ and writes dist/licences.txt from the packages
+// that went into them.
+import {build} from 'esbuild';
+import {existsSync, readFileSync, readdirSync, writeFileSync, mkdirSync} from 'node:fs';
+import path from 'node:path';
+
+mkdirSync('dist', {recursive: true});
+const common = {bundle: true, minify: true, target: 'es2022', format: 'iife', legalComments: 'none', metafile: true, charset: 'ascii', logLevel: 'warning'};
+
+const packages = new Set();
+for (const name of ['studio', 'view']) {
+  for (const kind of ['ts', 'css']) {
+    const entry = `src/main_${name}.${kind}`;
+    if (!existsSync(entry)) continue;
+    const result = await build({...common, entryPoints: [entry], outfile: `dist/${name}.${kind === 'ts' ? 'js' : 'css'}`});
+    for (const input of Object.keys(result.metafile.inputs)) {
+      const match = input.match(/node_modules\/((?:@[^/]+\/)?[^/]+)\//);
+      if (match) packages.add(match[1]);
+    }
+  }
+}
+
+let licences = 'The packages that are part of studio.js and view.js, with their licences.\n';
+for (const name of [...packages].sort()) {
+  const folder = path.join('node_modules', name);
+  const {version, license} = JSON.parse(readFileSync(path.join(folder, 'package.json'), 'utf8'));
+  const file = readdirSync(folder).find(entry => /^licen[cs]e/i.test(entry));
+  licences += `\n${'-'.repeat(80)}\n${name} ${version} (${license})\n\n`;
+  licences += file ? readFileSync(path.join(folder, file), 'utf8').trim() + '\n' : 'Its package has no licence file.\n';
+}
+writeFileSync('dist/licences.txt', licences);

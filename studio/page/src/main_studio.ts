@@ -1,0 +1,15 @@
+// The page of the studio: the whole workbench over the server that gave it.
+import {ServerSource} from './server_source';
+import {Store} from './store';
+import {Workbench} from './workbench';
+import {words} from './strings';
+import {editorPanel} from './editor/editor';
+import {paramsPanel} from './params/params';
+import {truthPanel} from './truth/truth';
+import {scalePanel} from './scale/scale';
+
+const token = new URLSearchParams(location.search).get('token') ?? '';
+const workbench = new Workbench(new ServerSource(token), new Store(), words.shell.title);
+workbench.addLeft(editorPanel, paramsPanel);
+workbench.addRight(truthPanel, scalePanel);
+void workbench.start();

@@ -1,0 +1,41 @@
+// Asks for the labels of a pack's text and keeps the answers: newest wins, an answer to an older text is dropped, and a pack with
+// errors leaves the labels of the last good one in place.
+import {SourceError, type PackAnswer, type Source} from './source';
+import type {Store} from './store';
+
+export class PackRunner {
+  private version = 0;
+
+  constructor(private readonly source: Source, private readonly store: Store) {}
+
+  /** True when the answer was taken; false when a newer text has overtaken it. Throws what the source throws otherwise. */
+  async run(text: string, params?: Record<string, string>, all = false): Promise<boolean> {
+    const version = ++this.version;
+    let answer: PackAnswer;
+    try {
+      answer = await this.source.pack({text, version, ...(params ? {params} : {}), ...(all ? {all} : {})});
+    } catch (error) {
+      if (error instanceof SourceError && error.isSuperseded) return false;
+      throw error;
+    }
+    if (version !== this.version) return this.keepLabels(answer);
+    this.store.set({version, is_good: answer.is_good, findings: answer.findings, ms: answer.ms});
+    if (answer.is_good) this.take(answer);
+    return true;
+  }
+
+  /** The labels of an overtaken answer count still: the source gives each change of a label only once. */
+  private keepLabels(answer: PackAnswer): boolean {
+    if (answer.is_good) this.take(answer);
+    return false;
+  }
+
+  private take(answer: PackAnswer): void {
+    const labels = new Map(this.store.value.labels);
+    for (const [building, classes] of Object.entries(answer.labels)) labels.set(Number(building), classes);
+    this.store.set({
+      labels, classes: answer.classes, params: answer.params, counts: answer.counts, unknown: answer.unknown,
+      doubtful: answer.doubtful, score: answer.score, changed: answer.changed, changed_count: answer.changed_count
+    });
+  }
+}

@@ -1,0 +1,115 @@
+// What the page knows, in one place. Parts of the page read `store.value`, change it by `set`, and are called when a field that
+// they watch has changed. Changes of one turn of the event loop come as one call.
+import type {
+  BuildingEntry, BuildingGeometry, Change, ClassEntry, Finding, ParamEntry, PackInfo, Part, Score, TruthObject, Vec3
+} from './source';
+
+/** What is chosen: a feature, a surface (the index of a polygon of the building), or a whole building. */
+export interface Selection { building: number; feature?: number; polygon?: number }
+
+/** Which labels are shown: a class number, or -1 for what has no label. */
+export interface Filter { hidden: ReadonlySet<number> }
+
+export type ColourMode = 'colour' | 'pattern' | 'heat';
+
+export interface Values {
+  program: string;
+  pack: PackInfo;
+  origin_m: Vec3;
+  buildings: BuildingEntry[];
+  loading: {done: number; all: number};
+  has_truth: boolean;
+  corrections: string;
+  scales: number[];
+  lods: string[];
+  /** Geometry that has come, by the building's number. The map is replaced when one comes. */
+  geometry: ReadonlyMap<number, BuildingGeometry>;
+
+  /** The pack's text as it stands in the editor, and the version of the last answer to it. */
+  text: string;
+  version: number;
+  is_good: boolean;
+  findings: Finding[];
+  classes: ClassEntry[];
+  params: ParamEntry[];
+  /** Class numbers of the features (-1 unknown), by the building's number: those of the last good pack. */
+  labels: ReadonlyMap<number, number[]>;
+  counts: {class: string; count: number}[];
+  unknown: number;
+  doubtful: Part[];
+  score: Score | null;
+  changed: Change[];
+  changed_count: number;
+  ms: number;
+
+  selection: Selection | null;
+  /** Several parts at once: what a search or a cell of the confusion table has found. */
+  found: Part[];
+  found_title: string;
+  hover: Selection | null;
+  filter: Filter;
+  colours: ColourMode;
+  truth: TruthObject[];
+  shows_truth: boolean;
+  shows_changes: boolean;
+  shows_hidden_lines: boolean;
+  shows_relations: boolean;
+  is_measuring: boolean;
+  /** The name of a relation whose lines alone are drawn, or null for all of the chosen feature. */
+  relation: string | null;
+  is_dark: boolean;
+  /** A sentence for the reader (status line, read aloud), and whether it tells of something that went wrong. */
+  message: string;
+  is_message_grave: boolean;
+}
+
+export const kInitial: Values = {
+  program: '', pack: {name: '', path: null, text: '', hash: '', is_writable: false}, origin_m: [0, 0, 0], buildings: [],
+  loading: {done: 0, all: 0}, has_truth: false, corrections: '', scales: [], lods: [], geometry: new Map(),
+  text: '', version: 0, is_good: true, findings: [], classes: [], params: [], labels: new Map(), counts: [], unknown: 0,
+  doubtful: [], score: null, changed: [], changed_count: 0, ms: 0,
+  selection: null, found: [], found_title: '', hover: null, filter: {hidden: new Set()}, colours: 'colour', truth: [],
+  shows_truth: false, shows_changes: true, shows_hidden_lines: false, shows_relations: true, is_measuring: false, relation: null,
+  is_dark: false, message: '', is_message_grave: false
+};
+
+type Watcher = {keys: ReadonlySet<keyof Values>; call: () => void};
+
+export class Store {
+  value: Readonly<Values>;
+  private readonly watchers: Watcher[] = [];
+  private changedKeys = new Set<keyof Values>();
+
+  constructor(initial: Values = kInitial) { this.value = initial; }
+
+  set(changes: Partial<Values>): void {
+    const keys = (Object.keys(changes) as (keyof Values)[]).filter(key => changes[key] !== this.value[key]);
+    if (keys.length === 0) return;
+    this.value = {...this.value, ...changes};
+    if (this.changedKeys.size === 0) queueMicrotask(() => this.tell());
+    for (const key of keys) this.changedKeys.add(key);
+  }
+
+  /** Calls `call` now, and whenever one of the keys has changed. Returns what ends it. */
+  watch(keys: (keyof Values)[], call: () => void): () => void {
+    const watcher = {keys: new Set(keys), call};
+    this.watchers.push(watcher);
+    call();
+    return () => { this.watchers.splice(this.watchers.indexOf(watcher), 1); };
+  }
+
+  /** Tells the reader something; a grave message stays until the next one. */
+  say(message: string, isGrave = false): void { this.set({message, is_message_grave: isGrave}); }
+
+  private tell(): void {
+    const keys = this.changedKeys;
+    this.changedKeys = new Set();
+    for (const watcher of [...this.watchers])
+      if ([...keys].some(key => watcher.keys.has(key))) watcher.call();
+  }
+}
+
+/** The class number of a feature, -1 where it has no label (yet). */
+export function labelOf(values: Readonly<Values>, building: number, feature: number): number {
+  return values.labels.get(building)?.[feature] ?? -1;
+}

@@ -1,0 +1,121 @@
+// The page as a whole: builds the shell with its panels, asks the source for what there is, and keeps the store.
+import type {App, Panel} from './app';
+import {SourceError, type Part, type Source} from './source';
+import type {Selection, Store} from './store';
+import {PackRunner} from './pack_runner';
+import {Shell} from './shell/shell';
+import {watchTheme} from './shell/theme';
+import {BuildingScene} from './scene/building_scene';
+import {bindScene} from './scene/bind_scene';
+import {sceneTools} from './scene/scene_tools';
+import {legendPanel} from './legend/legend';
+import {listPanel} from './list/list';
+import {explainPanel} from './explain/explain';
+import {searchBox} from './search/search';
+import {words} from './strings';
+
+const kPollMs = 400;
+/** Buildings asked for at once: an answer of some megabytes. */
+const kGeometryBatch = 50;
+
+export class Workbench implements App {
+  readonly shell: Shell;
+  readonly scene: BuildingScene;
+  readonly packs: PackRunner;
+  private lineOpener: ((line: number) => void) | null = null;
+  private readonly asked = new Set<number>();
+
+  constructor(readonly source: Source, readonly store: Store, title: string) {
+    this.packs = new PackRunner(source, store);
+    watchTheme(store);
+    const root = document.getElementById('app');
+    if (!root) throw new Error('the page has no #app');
+    this.shell = new Shell(root, store, title);
+    this.scene = new BuildingScene(this.shell.sceneHost);
+    bindScene(this.scene, this);
+    this.shell.sceneHost.append(sceneTools(this, this.scene));
+    this.shell.addSearch(searchBox(this));
+    this.shell.addLegend(legendPanel(this));
+    this.addRight(explainPanel, listPanel);
+  }
+
+  addLeft(...makers: ((app: App) => Panel)[]): void { for (const make of makers) this.shell.add('left', make(this)); }
+  addRight(...makers: ((app: App) => Panel)[]): void { for (const make of makers) this.shell.add('right', make(this)); }
+
+  async start(): Promise<void> {
+    this.shell.settle();
+    try {
+      await this.readState(true);
+      await this.packs.run(this.store.value.text, undefined, true);
+    } catch (error) {
+      this.tell(error);
+    }
+    this.openAddress();
+    document.documentElement.dataset['ready'] = 'yes';
+    while (this.store.value.loading.done < this.store.value.loading.all) {
+      await new Promise(resolve => setTimeout(resolve, kPollMs));
+      try {
+        await this.readState(false);
+        await this.packs.run(this.store.value.text, undefined, true);
+      } catch (error) {
+        this.tell(error);
+      }
+    }
+  }
+
+  select(selection: Selection | null, fly = false): void {
+    this.store.set({selection, ...(selection ? {} : {found: [], found_title: ''})});
+    if (selection?.feature !== undefined || selection?.polygon !== undefined) this.open('explain', true);
+    if (fly && selection) void this.need([selection.building]).then(() => this.scene.fly(selection));
+  }
+
+  show(parts: Part[], title: string): void {
+    this.store.set({found: parts, found_title: title, selection: null});
+    void this.need([...new Set(parts.map(([building]) => building))]).then(() => this.scene.flyToParts(parts));
+  }
+
+  async need(buildings: number[]): Promise<void> {
+    const missing = buildings.filter(number => !this.asked.has(number));
+    for (const number of missing) this.asked.add(number);
+    for (let i = 0; i < missing.length; i += kGeometryBatch) {
+      const batch = missing.slice(i, i + kGeometryBatch);
+      try {
+        const answer = await this.source.geometry(batch);
+        const geometry = new Map(this.store.value.geometry);
+        for (const building of answer.buildings) geometry.set(building.number, building);
+        this.store.set({geometry});
+      } catch (error) {
+        for (const number of batch) this.asked.delete(number);
+        this.tell(error);
+      }
+    }
+  }
+
+  open(panel: string, onlyIfSeen = false): void { this.shell.open(panel, onlyIfSeen); }
+  openLine(line: number): void { this.lineOpener?.(line); }
+  onOpenLine(call: (line: number) => void): void { this.lineOpener = call; }
+  get hasEditor(): boolean { return this.lineOpener !== null; }
+
+  private async readState(isFirst: boolean): Promise<void> {
+    const state = await this.source.state();
+    const {pack, buildings, loading} = state;
+    this.store.set({
+      program: state.program, origin_m: state.origin_m, buildings, loading, has_truth: state.has_truth,
+      corrections: state.corrections, scales: state.scales, lods: state.lods,
+      ...(isFirst ? {pack, text: pack.text} : {})
+    });
+    await this.need(buildings.map((_, number) => number).filter(number => buildings[number]!.is_open || !this.asked.has(number)));
+    if (isFirst) this.scene.fly(null);
+  }
+
+  /** A feature or building named behind # is chosen. */
+  private openAddress(): void {
+    const name = decodeURIComponent(location.hash.slice(1));
+    if (name) this.shell.search?.(name);
+  }
+
+  private tell(error: unknown): void {
+    if (error instanceof SourceError && error.isSuperseded) return;
+    this.store.say(error instanceof Error ? error.message : words.source.garbled, true);
+  }
+}
