@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 examples/install_packages.sh dpkg-dev file help2man lintian
 
 echo "== format"
-find bench cli examples generalise interpret kernel oriel python tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+find bench cli examples generalise interpret kernel oriel python studio tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 clang-format --dry-run -Werror
 
 echo "== build"

@@ -39,6 +39,7 @@ const std::map<std::string, std::string> kAllowed{
     {"kernel/model/labelled_building.h", "a value"},
     {"kernel/model/polygon_owners.h", "which features a polygon of a page lies in"},
     {"kernel/model/version.h", "--version, status files and pages"},
+    {"studio/server/serve.h", "the studio"},
 };
 
 /// What a file includes, between quotes or angles.

@@ -48,7 +48,7 @@ TEST_SUITE("repository") {
     CHECK(!declares_state("  static const std::regex pattern(\"a\");"));
     CHECK(!declares_state("  static int twice(int n) { return 2 * n; }"));
     std::map<std::string, std::string> found;
-    for (const char* room : {"kernel", "interpret", "generalise", "oriel", "python"})
+    for (const char* room : {"kernel", "interpret", "generalise", "oriel", "studio", "python"})
       for (const auto& entry :
            fs::recursive_directory_iterator(fs::path(ORIEL_SOURCE_DIR) / room)) {
         const bool is_code = entry.path().extension() == ".cpp" || entry.path().extension() == ".h";

@@ -53,7 +53,7 @@ std::map<std::string, std::string> codes_of_profiles() {
 std::map<std::string, std::string> found_in_sources(const std::regex& pattern,
                                                     const std::vector<const char*>& rooms = {
                                                         "kernel", "interpret", "generalise", "cli",
-                                                        "oriel"}) {
+                                                        "oriel", "studio"}) {
   std::map<std::string, std::string> found;
   for (const char* room : rooms) {
     if (!fs::exists(kRoot / room)) continue;

@@ -43,7 +43,8 @@ TEST_SUITE("kernel/model") {
   // Two types of one name in one program are undefined behaviour that no compiler tells of.
   TEST_CASE("no two types of the program have one name") {
     std::map<std::string, std::string> file_of;
-    for (const char* room : {"kernel", "interpret", "generalise", "cli", "examples/generator"})
+    for (const char* room :
+         {"kernel", "interpret", "generalise", "studio", "cli", "examples/generator"})
       for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORIEL_SOURCE_DIR) / room))
         if (is_source(entry.path())) collect(entry.path(), file_of);
     CHECK(file_of.size() > 200);

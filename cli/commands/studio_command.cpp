@@ -1,0 +1,92 @@
+#include "cli/batch/arena.h"
+#include "cli/batch/input_files.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/options.h"
+#include "cli/output/named_files.h"
+#include "cli/terminal/option_values.h"
+#include "cli/terminal/print_out.h"
+#include "studio/server/serve.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+struct StudioArguments : RunOptions {
+  std::string rules = "residential";
+  std::vector<std::string> truth;
+  std::string corrections = "corrections.jsonl";
+  int port = 0;
+  bool has_no_browser = false;
+};
+
+studio::SessionOptions session_options(const StudioArguments& arguments) {
+  studio::SessionOptions options;
+  options.files = arguments.inputs;
+  options.read = arguments.read_options();
+  options.label = arguments.label_options();
+  options.rules = arguments.rules;
+  options.truth = arguments.truth;
+  options.corrections = arguments.corrections;
+  options.jobs = arguments.jobs;
+  options.for_each = shares_in_arena(arguments.jobs);
+  return options;
+}
+
+ExitCode work(StudioArguments& arguments) {
+  Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
+  arguments.truth = truth_files(arguments.truth);
+  studio::ServeOptions options;
+  options.port = arguments.port;
+  options.begun = [](const std::string& address) {
+    print_out(fmt::format("{}\n", address));
+    print_out({}, false);
+  };
+  return studio::serve(session_options(arguments), options) ? ExitCode::clean : ExitCode::internal;
+}
+
+}  // namespace
+
+void add_studio(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<StudioArguments>();
+  CLI::App* command = app.add_subcommand(
+      "studio", "Write rules beside the buildings that they label, in a browser");
+  arguments->inputs = {"."};
+  arguments->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command->add_option("input", arguments->inputs,
+                      "Files of buildings, or folders of them; default: the current folder");
+  command->add_option("--lod", arguments->lod,
+                      "Level of detail to read, as written in the input (default: the highest)");
+  command->add_option("--from", arguments->from, "Format of the input (default: from its name)")
+      ->check(input_formats());
+  command
+      ->add_option("--rules", arguments->rules,
+                   "Rule pack to edit: a file, or the name of a built-in pack to begin with")
+      ->capture_default_str();
+  command->add_option("--truth", arguments->truth,
+                      "*.truth.json and *.truth.jsonl files, or folders of them");
+  command
+      ->add_option("--corrections", arguments->corrections,
+                   "File to which labels go that are corrected in the page")
+      ->capture_default_str();
+  command->add_option("--port", arguments->port, "Port on 127.0.0.1; 0: one that is free")
+      ->check(count_in(0, 65535))
+      ->capture_default_str();
+  command->add_flag("--no-browser", arguments->has_no_browser,
+                    "Print the address and open no browser");
+  add_solid_arguments(*command, *arguments);
+  add_jobs_argument(*command, arguments->jobs);
+  command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes, and every request");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli
