@@ -1,6 +1,5 @@
 #include "oriel/interpret.h"
 
-#include "interpret/labelling/interpret.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/labelling/interpret.h"  // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "interpret/score/label_diff.h"
 #include "kernel/base/issue.h"

@@ -39,8 +39,11 @@ std::string configuration(const LabelOptions& options) {
          (options.corrections ? " corrections=" + options.corrections->sha256() : "");
 }
 
-PipelineResult label(const Building& building, const RuleBase& rules, const LabelOptions& options) {
-  PipelineResult labelled = run_pipeline(building, &rules, options);
+namespace {
+
+/// Adds what is written of the building, if it was asked for.
+PipelineResult with_output(const Building& building, PipelineResult labelled, const RuleBase& rules,
+                           const LabelOptions& options) {
   if (!options.has_output || !labelled.has_surfaces()) return labelled;
   try {
     labelled.output = annotate(building, labelled, rules, options);
@@ -52,6 +55,18 @@ PipelineResult label(const Building& building, const RuleBase& rules, const Labe
     labelled.issues.push_back(own_fault(building, fault));
   }
   return labelled;
+}
+
+}  // namespace
+
+PipelineResult label(const Building& building, const RuleBase& rules, const LabelOptions& options) {
+  return with_output(building, run_pipeline(building, &rules, options), rules, options);
+}
+
+PipelineResult label(const Building& building, PipelineResult segmented, const RuleBase& rules,
+                     const LabelOptions& options) {
+  return with_output(building, name_segmented(building, std::move(segmented), rules, options),
+                     rules, options);
 }
 
 LabelledBuilding annotate(const Building& building, const PipelineResult& result,

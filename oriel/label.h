@@ -47,6 +47,11 @@ std::string configuration(const LabelOptions& options);
 PipelineResult label(const Building& building, const RuleBase& rules,
                      const LabelOptions& options = {});
 
+/// The same of a building of which segment() with the same options gave `segmented`: nothing is
+/// segmented or measured again. Only the order of issues may differ.
+PipelineResult label(const Building& building, PipelineResult segmented, const RuleBase& rules,
+                     const LabelOptions& options = {});
+
 /// What is to be written of a building: PipelineResult::output. `result` is what label() said of
 /// `building` with the same rules; it has_surfaces().
 LabelledBuilding annotate(const Building& building, const PipelineResult& result,

@@ -7,6 +7,7 @@
 #include "interpret/pack/names.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -122,23 +123,26 @@ std::optional<std::size_t> find_best(const std::vector<RuleReport>& reports) {
   return best;
 }
 
-/// Of the rules for labels of which none holds; the first of equals.
-std::optional<NearestMiss> find_nearest_miss(const Pack& pack, const Explanation& explanation,
-                                             Prover& prover) {
-  std::set<std::string> held;
+/// Of each label of which no rule holds the rule that misses least, the first of equals; these the
+/// nearest first, of equals in the order of the pack.
+std::vector<NearestMiss> find_near_misses(const Pack& pack, const Explanation& explanation,
+                                          Prover& prover) {
+  std::set<std::string> held{explanation.verdict.label.text()};
   for (const RuleReport& rule : explanation.rules)
     if (rule.outcome == Outcome::holds) held.insert(rule.label);
-  std::optional<NearestMiss> nearest;
+  std::map<std::string, NearestMiss> by_label;
   for (std::size_t i = 0; i < explanation.rules.size(); ++i) {
     const RuleReport& rule = explanation.rules[i];
-    if (rule.is_predicate || held.contains(rule.label) ||
-        rule.label == explanation.verdict.label.text())
-      continue;
+    if (rule.is_predicate || held.contains(rule.label)) continue;
     const double gap = prover.gap(pack.rules[i]);
-    if (!nearest || gap < nearest->gap) nearest = NearestMiss{i, gap, {}};
+    const auto [nearest, is_new] = by_label.try_emplace(rule.label, NearestMiss{i, gap, {}});
+    if (!is_new && gap < nearest->second.gap) nearest->second = {i, gap, {}};
   }
-  if (nearest) nearest->misses = prover.misses(pack.rules[nearest->rule]);
-  return nearest;
+  std::vector<NearestMiss> misses;
+  for (const auto& [label, miss] : by_label) misses.push_back(miss);
+  std::ranges::sort(misses, {}, [](const NearestMiss& m) { return std::pair(m.gap, m.rule); });
+  for (NearestMiss& miss : misses) miss.misses = prover.misses(pack.rules[miss.rule]);
+  return misses;
 }
 
 }  // namespace
@@ -183,7 +187,8 @@ Explanation Explainer::explain_fully(FeatureId feature) const {
   Prover prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value);
   prover.look_for_nearest(state_->context);
   Explanation explanation = state_->explain(prover, feature);
-  explanation.nearest_miss = find_nearest_miss(state_->base->pack(), explanation, prover);
+  explanation.near_misses = find_near_misses(state_->base->pack(), explanation, prover);
+  if (!explanation.near_misses.empty()) explanation.nearest_miss = explanation.near_misses.front();
   explanation.flip = find_flip(feature);
   return explanation;
 }

@@ -185,6 +185,9 @@ struct Explanation {
   std::optional<RoundReport> without_evidence;
   /// Only if they were searched for. Of rules with the same gap the first.
   std::optional<NearestMiss> nearest_miss;
+  /// That one and the nearest of each other label of which no rule holds: the nearest first, one
+  /// for each label.
+  std::vector<NearestMiss> near_misses;
   std::optional<FlipSearch> flip;
   /// Set by who knows of it: all else is what the rules say without it.
   std::optional<CorrectedLabel> corrected;

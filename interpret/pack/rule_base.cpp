@@ -249,12 +249,22 @@ std::optional<rules::FoundPack> find_embedded(const std::string& name) {
   return rules::FoundPack{name + ".yaml", std::string(*text)};
 }
 
+/// The folder that the file `pack` is in, links resolved; of a file that is not there yet the one
+/// that it would be in.
+std::filesystem::path folder_of(const std::string& pack) {
+  std::error_code problem;
+  const auto real = std::filesystem::canonical(pack, problem);
+  if (!problem) return real.parent_path();
+  const auto parent = std::filesystem::path(pack).parent_path();
+  return std::filesystem::canonical(parent.empty() ? "." : parent, problem);
+}
+
 /// The file `name` in the folder of `pack`. A link that leads out of the folder is not followed,
 /// and nothing is read that may wait for ever, as a pipe does.
 std::optional<rules::FoundPack> find_beside(const std::string& pack, const std::string& name) {
   const std::filesystem::path file = std::filesystem::path(pack).parent_path() / name;
   std::error_code problem;
-  const auto folder = std::filesystem::canonical(pack, problem).parent_path();
+  const auto folder = folder_of(pack);
   const auto real = std::filesystem::canonical(file, problem);
   if (problem || real.parent_path() != folder) return std::nullopt;
   if (!std::filesystem::is_regular_file(real, problem)) return std::nullopt;
@@ -377,6 +387,13 @@ Checked<RuleBase> load_pack(std::string text, std::string file) {
 }
 
 Checked<RuleBase> load_pack_file(const std::string& path) { return load(find_pack(path), path); }
+
+Checked<RuleBase> load_pack_text(std::string text, const std::string& path) {
+  return load(std::move(text), path, [&](const std::string& name) {
+    auto embedded = find_embedded(name);
+    return embedded ? embedded : find_beside(path, name);
+  });
+}
 
 Checked<std::string> format_pack_file(const std::string& path) {
   return write_pack(path, [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {

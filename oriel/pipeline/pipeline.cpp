@@ -206,6 +206,23 @@ void correct_labels(const Building& building, const Corrections& corrections,
   correct(corrected, out.interpretation);
 }
 
+/// Names the features of a building that was segmented and described.
+void name_features(const Building& building, const RuleBase& rules,
+                   const Segmentation& segmentation, const LabelOptions& options,
+                   PipelineResult& out) {
+  out.interpretation = measured(
+      options.observer, Stage::interpret, "interpreted", building,
+      [&] { return interpret(rules, out.description.table, out.description.graph); },
+      [](const Interpretation& found) {
+        return fmt::format("labelled={}",
+                           std::ranges::count_if(found.verdicts, [](const Verdict& verdict) {
+                             return !verdict.label.empty();
+                           }));
+      });
+  append(out.issues, out.interpretation.issues);
+  if (options.corrections) correct_labels(building, *options.corrections, segmentation, out);
+}
+
 /// Fills what stands between the solid and the surfaces.
 void find_features(const Building& building, const RuleBase* rules, const Tolerances& tolerances,
                    const LabelOptions& options, PipelineResult& out) {
@@ -227,20 +244,24 @@ void find_features(const Building& building, const RuleBase* rules, const Tolera
       [&] { return describe(building, segmentation, describe_options(rules, options)); },
       [](const Description& found) { return fmt::format("features={}", found.table.rows()); });
   append(out.issues, out.description.issues);
-  if (rules != nullptr) {
-    out.interpretation = measured(
-        observer, Stage::interpret, "interpreted", building,
-        [&] { return interpret(*rules, out.description.table, out.description.graph); },
-        [](const Interpretation& found) {
-          return fmt::format("labelled={}",
-                             std::ranges::count_if(found.verdicts, [](const Verdict& verdict) {
-                               return !verdict.label.empty();
-                             }));
-        });
-    append(out.issues, out.interpretation.issues);
-    if (options.corrections) correct_labels(building, *options.corrections, segmentation, out);
-  }
+  if (rules != nullptr) name_features(building, *rules, segmentation, options, out);
   out.segmentation = std::move(segmentation);
+}
+
+/// Features are there with their attributes and labels, or not at all.
+void drop_features(const Building& building, const std::exception& fault, PipelineResult& out) {
+  out.description = {};
+  out.interpretation = {};
+  out.corrections.clear();
+  out.issues.push_back(own_fault(building, fault));
+}
+
+void find_surfaces(const Building& building, const RuleBase& rules, const LabelOptions& options,
+                   PipelineResult& out) {
+  if (options.measures_surfaces)
+    describe_all_surfaces(building, out.tolerances, options.observer, out);
+  else
+    name_surfaces(building, out.tolerances, rules, options.observer, out);
 }
 
 }  // namespace
@@ -292,19 +313,26 @@ PipelineResult run_from_solid(PipelineResult out, const Building& building, cons
       else
         find_features(building, rules, tolerances, options, out);
     } catch (const std::exception& fault) {
-      // Features are there with their attributes and labels, or not at all.
-      out.description = {};
-      out.interpretation = {};
-      out.corrections.clear();
-      out.issues.push_back(own_fault(building, fault));
+      drop_features(building, fault, out);
     }
   }
   out.tolerances = tolerances;
-  if (rules != nullptr && options.measures_surfaces)
-    describe_all_surfaces(building, tolerances, options.observer, out);
-  else if (rules != nullptr)
-    name_surfaces(building, tolerances, *rules, options.observer, out);
+  if (rules != nullptr) find_surfaces(building, *rules, options, out);
   return out;
+}
+
+PipelineResult name_segmented(const Building& building, PipelineResult segmented,
+                              const RuleBase& rules, const LabelOptions& options) {
+  if (segmented.is_done()) {
+    try {
+      name_features(building, rules, *segmented.segmentation, options, segmented);
+    } catch (const std::exception& fault) {
+      segmented.segmentation.reset();
+      drop_features(building, fault, segmented);
+    }
+  }
+  find_surfaces(building, rules, options, segmented);
+  return segmented;
 }
 
 PipelineResult run_pipeline(const Building& building, const RuleBase* rules,

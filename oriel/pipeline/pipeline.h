@@ -54,6 +54,10 @@ PipelineResult run_from_solid(PipelineResult solid, const Building& building, co
 PipelineResult run_pipeline(const Building& building, const RuleBase* rules,
                             const LabelOptions& options);
 
+/// What run_pipeline() with rules makes of a building of which it made `segmented` without.
+PipelineResult name_segmented(const Building& building, PipelineResult segmented,
+                              const RuleBase& rules, const LabelOptions& options);
+
 /// Fills result.surfaces, whether the building came to the end or not. A fault of ours is E901.
 void describe_all_surfaces(const Building& building, const Tolerances& tolerances,
                            const StageObserver& observer, PipelineResult& result);

@@ -57,4 +57,20 @@ Checked<std::vector<Correction>> read_corrections(const std::string& path) {
   return result;
 }
 
+std::string corrections_text(std::span<const Correction> corrections) {
+  std::string text;
+  for (const Correction& correction : corrections) {
+    nlohmann::ordered_json object{{"building", correction.building}};
+    if (!correction.feature.empty()) object["feature"] = correction.feature;
+    if (correction.point)
+      object["point"] = {correction.point->x, correction.point->y, correction.point->z};
+    object["class"] = correction.label.empty() ? "unknown" : correction.label;
+    if (!correction.by.empty()) object["by"] = correction.by;
+    if (!correction.why.empty()) object["why"] = correction.why;
+    text += object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace oriel

@@ -3,6 +3,7 @@
 #include "kernel/base/issue.h"
 #include "kernel/model/correction.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,8 @@ namespace oriel {
 /// left out and named: E152, or E103 to E105, E503, E504 if it is not JSON. Throws InputError E101
 /// if the file cannot be read.
 Checked<std::vector<Correction>> read_corrections(const std::string& path);
+
+/// The file that read_corrections() reads as these, line by line; places are left aside.
+std::string corrections_text(std::span<const Correction> corrections);
 
 }  // namespace oriel
