@@ -33,18 +33,22 @@ void Findings::add(Severity severity, Code code, SourceSpan where, std::string s
     findings_.push_back({where, severity, code, std::move(sentence)});
 }
 
-std::vector<Issue> Findings::issues() const {
+std::vector<SpannedFinding> Findings::spanned() const {
   auto sorted = findings_;
   std::ranges::sort(sorted);
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   if (sorted.size() > kMostFindings) {
     // Errors before warnings, so that what makes the pack invalid is not among what is left out.
     std::stable_partition(sorted.begin(), sorted.end(),
-                          [](const Item& f) { return f.severity == Severity::error; });
+                          [](const SpannedFinding& f) { return f.severity == Severity::error; });
     sorted.resize(kMostFindings);
   }
+  return sorted;
+}
+
+std::vector<Issue> Findings::issues() const {
   std::vector<Issue> issues;
-  for (const Item& f : sorted)
+  for (const SpannedFinding& f : spanned())
     issues.push_back(
         {f.severity, f.code, f.sentence, source_->place(f.where.begin), source_->excerpt(f.where)});
   return issues;

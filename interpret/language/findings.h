@@ -8,6 +8,15 @@
 
 namespace oriel::rules {
 
+/// One of them with the whole piece of text that it is about.
+struct SpannedFinding {
+  SourceSpan where;
+  Severity severity = Severity::error;
+  Code code = Code::none;
+  std::string sentence;
+  friend auto operator<=>(const SpannedFinding&, const SpannedFinding&) = default;
+};
+
 /// Collects what is wrong with a pack, each finding with its place and excerpt.
 class Findings {
  public:
@@ -26,19 +35,14 @@ class Findings {
 
   /// All findings in the order of the text, without repetition; of a great many the first 200.
   [[nodiscard]] std::vector<Issue> issues() const;
+  /// The same findings in the same order.
+  [[nodiscard]] std::vector<SpannedFinding> spanned() const;
 
  private:
   void add(Severity severity, Code code, SourceSpan where, std::string sentence);
 
-  struct Item {
-    SourceSpan where;
-    Severity severity = Severity::error;
-    Code code = Code::none;
-    std::string sentence;
-    friend auto operator<=>(const Item&, const Item&) = default;
-  };
   const Source* source_;
-  std::vector<Item> findings_;
+  std::vector<SpannedFinding> findings_;
   std::vector<SourceSpan> silenced_;
   std::size_t errors_ = 0;
 };

@@ -13,6 +13,7 @@
 #include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
 #include "interpret/pack/pack_page.h"
+#include "interpret/pack/read_pack.h"
 #include "interpret/yaml/section.h"
 #include "interpret/yaml/yaml_text.h"
 #include "interpret/yaml/yaml_tree.h"
@@ -201,10 +202,9 @@ void drop_byte_order_mark(std::string& text) {
   if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
 }
 
-/// The pack in `text`, put over those that it extends, or null if it has errors; `issues` is set to
-/// all findings. `file` names it in places.
-std::shared_ptr<const Pack> load(std::string text, std::string file, const PackFinder& find,
-                                 std::vector<Issue>& issues) {
+}  // namespace
+
+ReadPack read_pack_text(std::string text, std::string file, const PackFinder& find) {
   std::string digest = sha256(text);
   drop_byte_order_mark(text);
   const PackFinder find_and_digest = [&](const std::string& name) {
@@ -214,19 +214,22 @@ std::shared_ptr<const Pack> load(std::string text, std::string file, const PackF
     drop_byte_order_mark(found->text);
     return found;
   };
-  auto pack = std::make_shared<Pack>(Source(std::move(file), std::move(text)));
-  Findings findings(pack->source);
-  const std::size_t bad = find_bad_byte(pack->source.text());
+  ReadPack read;
+  read.pack = std::make_shared<Pack>(Source(std::move(file), std::move(text)));
+  Pack& pack = *read.pack;
+  Findings findings(pack.source);
+  const std::size_t bad = find_bad_byte(pack.source.text());
   if (bad != std::string_view::npos)
     findings.error(Code::R200, {bad, bad}, "this is not UTF-8 text");
-  else if (const auto root = read_tree(pack->source, find_and_digest, findings))
-    read_pack(*root, *pack, findings);
-  pack->sha256 = std::move(digest);
-  issues = findings.issues();
-  return findings.has_errors() ? nullptr : pack;
+  else
+    read.tree = read_tree(pack.source, find_and_digest, findings);
+  if (read.tree) read_pack(*read.tree, pack, findings);
+  pack.sha256 = std::move(digest);
+  read.issues = findings.issues();
+  read.findings = findings.spanned();
+  read.is_good = !findings.has_errors();
+  return read;
 }
-
-}  // namespace
 
 }  // namespace oriel::rules
 
@@ -281,8 +284,9 @@ std::optional<rules::FoundPack> find_pack(const std::string& path) {
   return rules::FoundPack{path, std::move(*text)};
 }
 
-/// Finds what the pack at `path` extends.
-rules::PackFinder finder_for(const std::string& path) {
+}  // namespace
+
+rules::PackFinder rules::finder_for(const std::string& path) {
   if (embedded_pack(path)) return find_embedded;
   return [path](const std::string& name) {
     auto embedded = find_embedded(name);
@@ -290,10 +294,12 @@ rules::PackFinder finder_for(const std::string& path) {
   };
 }
 
+namespace {
+
 Checked<RuleBase> load(std::string text, std::string file, const rules::PackFinder& find) {
-  Checked<RuleBase> checked;
-  if (auto pack = rules::load(std::move(text), std::move(file), find, checked.issues))
-    checked.value.emplace(std::move(pack));
+  rules::ReadPack read = rules::read_pack_text(std::move(text), std::move(file), find);
+  Checked<RuleBase> checked{std::nullopt, std::move(read.issues)};
+  if (read.is_good) checked.value.emplace(std::move(read.pack));
   return checked;
 }
 
@@ -308,7 +314,7 @@ std::string suggest_embedded(const std::string& path) {
 
 /// `found` is what find_pack has at `path`.
 Checked<RuleBase> load(const std::optional<rules::FoundPack>& found, const std::string& path) {
-  if (found) return load(found->text, found->file, finder_for(path));
+  if (found) return load(found->text, found->file, rules::finder_for(path));
   return refuse<RuleBase>(Code::R200, path,
                           "there is no pack here that can be read" + suggest_embedded(path));
 }
@@ -404,7 +410,7 @@ Checked<std::string> format_pack_file(const std::string& path) {
 
 Checked<std::string> merge_pack_file(const std::string& path) {
   return write_pack(path, [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
-    const auto tree = rules::read_tree(source, finder_for(path), findings);
+    const auto tree = rules::read_tree(source, rules::finder_for(path), findings);
     return certain(tree.value(), rules::to_yaml(tree.value()), path);
   });
 }
@@ -412,7 +418,7 @@ Checked<std::string> merge_pack_file(const std::string& path) {
 Checked<std::string> describe_pack_file(const std::string& path) {
   return write_pack(
       path, [&](const RuleBase& base, rules::Source& source, rules::Findings& findings) {
-        const auto tree = rules::read_tree(source, finder_for(path), findings);
+        const auto tree = rules::read_tree(source, rules::finder_for(path), findings);
         return Checked<std::string>{rules::pack_page(tree.value(), base.pack(), findings), {}};
       });
 }
