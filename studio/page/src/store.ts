@@ -49,6 +49,8 @@ export interface Values {
   hover: Selection | null;
   filter: Filter;
   colours: ColourMode;
+  /** What the heat map shows: a kind of part, or a class by its number. */
+  heat: 'unknown' | 'doubtful' | 'wrong' | 'changed' | number;
   truth: TruthObject[];
   shows_truth: boolean;
   shows_changes: boolean;
@@ -68,7 +70,7 @@ export const kInitial: Values = {
   loading: {done: 0, all: 0}, has_truth: false, corrections: '', scales: [], lods: [], geometry: new Map(),
   text: '', version: 0, is_good: true, findings: [], classes: [], params: [], labels: new Map(), counts: [], unknown: 0,
   doubtful: [], score: null, changed: [], changed_count: 0, ms: 0,
-  selection: null, found: [], found_title: '', hover: null, filter: {hidden: new Set()}, colours: 'colour', truth: [],
+  selection: null, found: [], found_title: '', hover: null, filter: {hidden: new Set()}, colours: 'colour', heat: 'unknown', truth: [],
   shows_truth: false, shows_changes: true, shows_hidden_lines: false, shows_relations: true, is_measuring: false, relation: null,
   is_dark: false, message: '', is_message_grave: false
 };

@@ -1,7 +1,195 @@
+// What is chosen, in words: one plain sentence, then why, why not something else, what would change it, and how it lies to others.
 import type {App, Panel} from '../app';
-import {el} from '../dom';
+import {el, replace} from '../dom';
+import {namesOf} from '../scene/bind_scene';
+import {looksOf, patchStyle} from '../scene/palette';
+import type {AttributeEntry, ConditionRow, ExplainAnswer, NearestMiss, Part, RelationEntry, RuleReason} from '../source';
+import {labelOf, type Selection} from '../store';
 import {words} from '../strings';
 
-export function explainPanel(_app: App): Panel {
-  return {id: 'explain', title: words.explain.title, element: el('div', {class: 'panel'})};
+export function explainPanel(app: App): Panel {
+  const element = el('div', {class: 'panel explain'});
+  const head = el('div', {class: 'explain-head'});
+  const body = el('div', {class: 'explain-body', 'aria-live': 'polite'});
+  element.append(head, body);
+  let asked = 0;
+  let shown = '';
+  const show = async () => {
+    const {selection, found, found_title, version, geometry} = app.store.value;
+    const key = JSON.stringify([selection, version, selection ? geometry.has(selection.building) : 0, found.length, found_title]);
+    if (key === shown) return;
+    shown = key;
+    const number = ++asked;
+    replace(head, ...headOf(app, selection));
+    if (!selection) return replace(body, ...(found.length > 0 ? foundList(app, found, found_title) : [el('p', {class: 'quiet'}, words.explain.nothing)]));
+    try {
+      const content = await contentOf(app, selection);
+      if (number === asked) replace(body, ...content);
+    } catch (error) {
+      if (number === asked) replace(body, el('p', {class: 'grave'}, error instanceof Error ? error.message : words.source.garbled));
+    }
+  };
+  app.store.watch(['selection', 'version', 'found', 'found_title', 'geometry', 'labels'], () => void show());
+  return {id: 'explain', title: words.explain.title, element};
+}
+
+async function contentOf(app: App, selection: Selection): Promise<HTMLElement[]> {
+  if (selection.feature !== undefined) {
+    const answer = await app.source.explain(selection.building, selection.feature);
+    return featureContent(app, [selection.building, selection.feature], answer);
+  }
+  if (selection.polygon !== undefined) {
+    const {types, why} = await app.source.surfaces(selection.building);
+    return surfaceContent(types[selection.polygon] ?? '', why[selection.polygon] ?? '');
+  }
+  return buildingContent(app, selection.building);
+}
+
+// ---- above: what lies in what ----
+
+function headOf(app: App, selection: Selection | null): HTMLElement[] {
+  if (!selection) return [];
+  const {buildings, geometry, classes} = app.store.value;
+  const {building, polygon, feature} = selection;
+  const features = geometry.get(building)?.features ?? [];
+  const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? features[f]?.kind ?? words.scene.unknown;
+  const crumb = (text: string, chosen: Selection, isCurrent: boolean) => el('button', {type: 'button', class: 'crumb', 'aria-pressed': String(isCurrent),
+    onclick: () => app.select(chosen)}, text);
+  const owners = ownersOf(app, selection);
+  return [el('nav', {class: 'crumbs', 'aria-label': words.explain.liesIn},
+    crumb(buildings[building]?.id ?? '', {building}, feature === undefined && polygon === undefined),
+    ...(polygon === undefined ? [] : [crumb(words.explain.surface, {building, polygon}, feature === undefined)]),
+    ...owners.map(f => crumb(name(f), polygon === undefined ? {building, feature: f} : {building, polygon, feature: f}, f === feature)))];
+}
+
+/** The features around the chosen one, the largest first. */
+function ownersOf(app: App, {building, polygon, feature}: Selection): number[] {
+  const found = app.store.value.geometry.get(building);
+  if (!found) return [];
+  if (polygon !== undefined) return [...(found.polygons[polygon]?.owners ?? [])].reverse();
+  if (feature === undefined) return [];
+  const chain: number[] = [];
+  for (let f = feature; f >= 0 && chain.length < 8 && !chain.includes(f); f = found.features[f]?.parent ?? -1) chain.unshift(f);
+  return chain;
+}
+
+// ---- a feature ----
+
+function featureContent(app: App, [building, feature]: Part, answer: ExplainAnswer): HTMLElement[] {
+  const {classes, geometry} = app.store.value;
+  const label = answer.label ?? words.scene.unknown;
+  const number = classes.findIndex(({name}) => name === answer.label);
+  const look = number >= 0 ? looksOf(namesOf(app), app.store.value.colours === 'pattern')[number]! : null;
+  const about = geometry.get(building)?.features[feature];
+  const [first, ...rest] = splitSentence(answer.sentence, label);
+  const content: (HTMLElement | null)[] = [
+    el('h2', {id: 'chosen', class: 'verdict'}, look ? el('span', {class: 'patch', style: patchStyle(look)}) : null, el('span', {}, first!)),
+    el('p', {class: 'sentence', id: 'sentence'}, rest.join('')),
+    about ? el('p', {class: 'quiet small', id: 'name'}, about.name) : null,
+    answer.correction ? el('p', {class: 'note'}, words.explain.corrected(answer.correction.class)) : null,
+    answer.flip ? el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line)) : null,
+    section(words.explain.why, 'why', answer.why.map((rule, i) => ruleElement(app, rule, i === 0 && rule.rule === answer.rule)), words.explain.noRule),
+    section(words.explain.whyNot, 'whynot', answer.why_not.map(miss => missElement(app, miss))),
+    section(words.explain.relations, 'relations', answer.relations.filter(r => r.features.length > 0).map(r => relationElement(app, building, r))),
+    attributesElement(answer.attributes),
+    about ? el('p', {class: 'quiet small', id: 'id'}, words.explain.id, ' ', el('code', {}, about.id)) : null
+  ];
+  return content.filter((child): child is HTMLElement => child !== null);
+}
+
+/** "window: a 1.1 × 1.4 m hole …" as the label and what is said of it. */
+function splitSentence(sentence: string, label: string): string[] {
+  const colon = sentence.indexOf(': ');
+  if (colon < 0 || sentence.slice(0, colon) !== label) return [label, sentence];
+  const rest = sentence.slice(colon + 2);
+  return [label, rest.charAt(0).toUpperCase() + rest.slice(1) + (rest.endsWith('.') ? '' : '.')];
+}
+
+function section(title: string, id: string, children: HTMLElement[], empty = ''): HTMLElement | null {
+  if (children.length === 0 && !empty) return null;
+  return el('section', {class: 'part', 'aria-labelledby': `title-${id}`}, el('h3', {id: `title-${id}`}, title),
+    el('div', {id}, ...(children.length > 0 ? children : [el('p', {class: 'quiet'}, empty)])));
+}
+
+function lineLink(app: App, line: number | null): HTMLElement | null {
+  if (!line) return null;
+  const text = words.explain.line(line);
+  if (!app.source.can.edit) return el('span', {class: 'quiet small'}, text);
+  return el('button', {type: 'button', class: 'link small', 'data-line': line, onclick: () => app.openLine(line)}, text);
+}
+
+function ruleElement(app: App, rule: RuleReason, isOpen: boolean): HTMLElement {
+  return el('details', {class: 'rule', open: isOpen}, el('summary', {}, el('code', {}, rule.rule), rule.label ? ` → ${rule.label}` : '',
+    el('span', {class: rule.holds ? 'good' : 'grave'}, rule.holds ? words.explain.holds : words.explain.fails)),
+    el('ul', {class: 'conditions'}, ...rule.conditions.map(conditionElement)), lineLink(app, rule.line));
+}
+
+function conditionElement(condition: ConditionRow): HTMLElement {
+  const kind = condition.holds === null ? 'open' : condition.holds ? 'good' : 'grave';
+  const said = {open: words.explain.isOpen, good: words.explain.holds, grave: words.explain.fails}[kind];
+  return el('li', {class: `condition is-${kind}`, style: {'--depth': String(condition.depth)}},
+    el('span', {class: 'mark', 'aria-label': said, title: said}, {open: '?', good: '✓', grave: '✗'}[kind]),
+    el('span', {class: 'condition-text'}, condition.text), condition.found ? el('span', {class: 'found'}, condition.found) : null,
+    condition.asked ? el('span', {class: 'asked quiet'}, condition.asked) : null);
+}
+
+function missElement(app: App, miss: NearestMiss): HTMLElement {
+  return el('p', {class: 'miss'}, el('strong', {}, miss.label), ' ', miss.sentence, ' ', el('code', {class: 'quiet'}, miss.rule), ' ', lineLink(app, miss.line));
+}
+
+function relationElement(app: App, building: number, relation: RelationEntry): HTMLElement {
+  const {classes, geometry} = app.store.value;
+  const kShown = 12;
+  const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? geometry.get(building)?.features[f]?.kind ?? words.scene.unknown;
+  const only = () => app.store.set({relation: app.store.value.relation === relation.name ? null : relation.name, shows_relations: true});
+  const button = el('button', {type: 'button', class: 'relation-name', title: words.explain.onlyRelation, onclick: only}, relation.name);
+  button.setAttribute('aria-pressed', String(app.store.value.relation === relation.name));
+  button.addEventListener('click', () => queueMicrotask(() => button.setAttribute('aria-pressed', String(app.store.value.relation === relation.name))));
+  return el('div', {class: 'relation'}, button, el('span', {class: 'relation-ends'},
+    ...relation.features.slice(0, kShown).map(f => el('button', {type: 'button', class: 'link small', onclick: () => app.select({building, feature: f}),
+      onpointerenter: () => app.store.set({hover: {building, feature: f}}), onpointerleave: () => app.store.set({hover: null})}, name(f))),
+    relation.features.length > kShown ? el('span', {class: 'quiet small'}, words.explain.more(relation.features.length - kShown)) : null));
+}
+
+function attributesElement(attributes: AttributeEntry[]): HTMLElement | null {
+  if (attributes.length === 0) return null;
+  return el('details', {class: 'part attributes'}, el('summary', {}, words.explain.attributes(attributes.length)),
+    el('table', {}, ...attributes.map(a => el('tr', {title: a.meaning}, el('th', {scope: 'row'}, a.name),
+      el('td', {class: 'number'}, a.unit && !a.value.endsWith(a.unit) ? `${a.value} ${a.unit}` : a.value)))));
+}
+
+// ---- a surface, a building, several parts ----
+
+function surfaceContent(type: string, why: string): HTMLElement[] {
+  return [el('h2', {id: 'chosen'}, words.explain.surfaceName(type)), ...why.split('\n').filter(Boolean).map(text => el('p', {class: 'why-line'}, text))];
+}
+
+function buildingContent(app: App, building: number): HTMLElement[] {
+  const {buildings, labels, classes} = app.store.value;
+  const entry = buildings[building];
+  if (!entry) return [];
+  const counts = new Map<number, number>();
+  for (const label of labels.get(building) ?? []) counts.set(label, (counts.get(label) ?? 0) + 1);
+  const rows = [...counts].sort((a, b) => b[1] - a[1]);
+  const [width, depth, height] = entry.size_m;
+  return [
+    el('h2', {id: 'chosen'}, entry.id),
+    el('p', {class: 'sentence'}, words.explain.building(width, depth, height, entry.features)),
+    el('table', {class: 'counts'}, ...rows.map(([label, count]) => el('tr', {}, el('th', {scope: 'row'}, classes[label]?.name ?? words.scene.unknown),
+      el('td', {class: 'number'}, count.toLocaleString('en'))))),
+    ...entry.issues.map(issue => el('p', {class: `issue is-${issue.severity}`}, issue.sentence, ' ', el('code', {class: 'quiet'}, issue.code))),
+    el('p', {class: 'quiet small'}, entry.file)
+  ];
+}
+
+function foundList(app: App, parts: Part[], title: string): HTMLElement[] {
+  const {classes, buildings, geometry} = app.store.value;
+  const kShown = 200;
+  return [
+    el('h2', {id: 'chosen'}, title), el('p', {class: 'quiet'}, words.explain.found(parts.length)),
+    el('ul', {class: 'found-list'}, ...parts.slice(0, kShown).map(([building, feature]) => el('li', {}, el('button', {type: 'button', class: 'link',
+      onclick: () => app.select({building, feature}, true)}, classes[labelOf(app.store.value, building, feature)]?.name ?? words.scene.unknown),
+      ' ', el('span', {class: 'quiet small'}, geometry.get(building)?.features[feature]?.name ?? '', buildings.length > 1 ? ` · ${buildings[building]?.id ?? ''}` : '')))),
+    ...(parts.length > kShown ? [el('p', {class: 'quiet small'}, words.explain.more(parts.length - kShown))] : [])
+  ];
 }

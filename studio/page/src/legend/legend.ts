@@ -1,7 +1,75 @@
+// The labels with their colours and counts, as a filter: each can be hidden or shown alone.
 import type {App, Panel} from '../app';
-import {el} from '../dom';
+import {el, replace} from '../dom';
+import {namesOf} from '../scene/bind_scene';
+import {looksOf, patchStyle, surfaceColours, type Look} from '../scene/palette';
+import {icon} from '../shell/icons';
 import {words} from '../strings';
 
-export function legendPanel(_app: App): Panel {
-  return {id: 'legend', title: words.legend.title, element: el('div', {class: 'panel'})};
+/** What is no class of the pack: features without a label, and what lies in no feature. */
+const kUnknown = -1, kSurfaces = -2;
+
+interface Row { label: number; name: string; look: Look; count: number | null }
+
+export function legendPanel(app: App): Panel {
+  const list = el('ul', {class: 'legend-list'});
+  const all = el('button', {type: 'button', class: 'link small', onclick: () => setHidden(app, new Set())}, words.legend.all);
+  const element = el('section', {class: 'legend', 'aria-label': words.legend.title},
+    el('div', {class: 'legend-head'}, el('h3', {}, words.legend.title), all), list);
+  app.store.watch(['classes', 'counts', 'unknown', 'filter', 'colours'], () => {
+    const rows = rowsOf(app);
+    const hidden = app.store.value.filter.hidden;
+    all.hidden = hidden.size === 0;
+    const focused = (document.activeElement as HTMLElement | null)?.dataset['key'];
+    replace(list, ...rows.map(row => rowElement(app, row, rows)));
+    if (focused) list.querySelector<HTMLElement>(`[data-key="${focused}"]`)?.focus();
+  });
+  return {id: 'legend', title: words.legend.title, element};
 }
+
+function rowsOf(app: App): Row[] {
+  const {counts, unknown, classes, colours} = app.store.value;
+  const names = namesOf(app);
+  const looks = looksOf(names, colours === 'pattern');
+  const number = new Map(counts.map(entry => [entry.class, entry.count]));
+  const rows: Row[] = classes.flatMap(({name}, label) => {
+    const count = number.get(name) ?? 0;
+    return count > 0 ? [{label, name, look: looks[label]!, count}] : [];
+  });
+  rows.sort((a, b) => b.count! - a.count! || a.name.localeCompare(b.name, 'en'));
+  const plain = {colour: surfaceColours.wall, pattern: colours === 'pattern' ? 5 : 0};
+  if (unknown > 0) rows.push({label: kUnknown, name: words.legend.unknown, look: plain, count: unknown});
+  rows.push({label: kSurfaces, name: words.legend.surfaces, look: {colour: surfaceColours.roof, pattern: 0}, count: null});
+  return rows;
+}
+
+function rowElement(app: App, row: Row, rows: Row[]): HTMLElement {
+  const hidden = app.store.value.filter.hidden;
+  const isHidden = hidden.has(row.label);
+  const others = rows.filter(({label}) => label !== row.label).map(({label}) => label);
+  const isOnly = !isHidden && others.length > 0 && others.every(label => hidden.has(label));
+  const toggle = () => {
+    const next = new Set(hidden);
+    if (!next.delete(row.label)) next.add(row.label);
+    setHidden(app, next);
+  };
+  const only = () => setHidden(app, isOnly ? new Set() : new Set(others));
+  return el('li', {class: isHidden ? 'is-hidden' : ''},
+    el('button', {type: 'button', class: 'legend-row', 'data-key': `show ${row.label}`, 'data-label': row.name, 'aria-pressed': String(!isHidden),
+      'aria-label': row.count === null ? row.name : words.legend.row(row.name, row.count), title: isHidden ? words.legend.show : words.legend.hide, onclick: toggle},
+      el('span', {class: 'patch', style: patchStyle(row.look)}), el('span', {class: 'legend-name'}, row.name),
+      el('span', {class: 'number quiet'}, row.count === null ? '' : row.count.toLocaleString('en'))),
+    el('button', {type: 'button', class: 'legend-only', 'data-key': `only ${row.label}`, 'aria-pressed': String(isOnly),
+      'aria-label': words.legend.onlyOf(row.name), onclick: only}, isOnly ? words.legend.all : words.legend.only),
+    el('button', {type: 'button', class: 'legend-find', 'data-key': `find ${row.label}`, 'aria-label': words.legend.markAll(row.name), title: words.legend.markAll(row.name),
+      hidden: row.label === kSurfaces, onclick: () => markAll(app, row)}, icon('search')));
+}
+
+/** Marks all parts of a label. */
+function markAll(app: App, row: Row): void {
+  const parts = [...app.store.value.labels].flatMap(([building, labels]) =>
+    labels.flatMap((label, feature): [number, number][] => (label === row.label ? [[building, feature]] : [])));
+  app.show(parts, words.legend.row(row.name, parts.length));
+}
+
+function setHidden(app: App, hidden: ReadonlySet<number>): void { app.store.set({filter: {hidden}}); }

@@ -1,6 +1,17 @@
-// The picture of buildings: one canvas. It may be made twice (before and after), see divider.ts.
+// The picture of buildings: one canvas. It may be made twice (before and after), see divider.ts. It draws when something has changed,
+// and not before.
+import {
+  Box3, BufferAttribute, BufferGeometry, ColorManagement, Group, LinearSRGBColorSpace, LineSegments, Raycaster, Scene, Vector2,
+  Vector3, WebGLRenderer
+} from 'three';
 import type {Part} from '../source';
 import type {Selection} from '../store';
+import {BuildingBoxes, type PlacedBox} from './building_boxes';
+import {Camera} from './camera';
+import {bvhOf, ChunkBuilder, type Chunk, type PolygonRef} from './chunk';
+import {makeExtraLineMaterial, makeMaterials, makeUniforms} from './materials';
+import {isMeant, kNothing, Painter, shownFeature, type Paint} from './paint';
+import {rgb} from './palette';
 
 /** A building as the scene draws it. The polygons of a generalised one have `feature` as their only owner. */
 export interface SceneBuilding {
@@ -11,15 +22,332 @@ export interface SceneBuilding {
   storeys_mm: number[];
 }
 
+/** What lies under a point of the picture. */
+export interface Hit { selection: Selection; point: Vector3 }
+
+ColorManagement.enabled = false;
+
+/** Three calls a chunk, so at most 150 for all, however many buildings there are. */
+const kMostChunks = 45;
+const kChunkBuildings = 40;
+
 export class BuildingScene {
-  constructor(readonly host: HTMLElement) {}
-  /** Draws these buildings instead of those that were drawn. */
-  setBuildings(_buildings: SceneBuilding[]): void {}
-  /** The class number of a feature (-1 unknown) is asked for again. */
-  setLabels(_labels: ReadonlyMap<number, number[]>): void {}
-  fly(_selection: Selection | null): void {}
-  flyToParts(_parts: Part[]): void {}
+  readonly element: HTMLElement;
+  readonly camera: Camera;
+  readonly boxes = new BuildingBoxes();
+  /** False where the browser has no WebGL 2: everything else of the page works. */
+  readonly isDrawing: boolean;
+  readonly onPick: ((hit: Hit | null, event: PointerEvent) => void)[] = [];
+  readonly onHover: ((hit: Hit | null, event: PointerEvent) => void)[] = [];
+  readonly onContext: ((hit: Hit | null, event: MouseEvent) => void)[] = [];
+  readonly onRender: (() => void)[] = [];
+  private readonly renderer: WebGLRenderer | null = null;
+  private readonly scene = new Scene();
+  private readonly chunkGroup = new Group();
+  private readonly uniforms = makeUniforms();
+  private readonly materials = makeMaterials(this.uniforms);
+  private refs: PolygonRef[] = [];
+  private painter = new Painter(this.uniforms, this.refs);
+  private chunks: Chunk[] = [];
+  private buildings = new Map<number, SceneBuilding>();
+  private paint: Paint = kNothing;
+  private box = new Box3();
+  private isWaiting = false;
+  private extra: LineSegments | null = null;
+
+  constructor(readonly host: HTMLElement) {
+    this.element = document.createElement('div');
+    this.element.className = 'picture';
+    this.element.tabIndex = 0;
+    host.prepend(this.element);
+    this.scene.add(this.chunkGroup, this.boxes.object);
+    this.camera = new Camera(this.element, () => this.requestRender());
+    try {
+      this.renderer = new WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
+    } catch { /* said by the shell */ }
+    this.isDrawing = this.renderer !== null;
+    if (!this.renderer) return;
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;  // colours are taken as they are
+    this.element.append(this.renderer.domElement);
+    new ResizeObserver(() => this.resize()).observe(this.element);
+    this.listen();
+  }
+
+  // ---- what is drawn ----
+
+  /** Draws these buildings instead of those that were drawn; those that are the same objects are kept. */
+  setBuildings(buildings: SceneBuilding[]): void {
+    const isKept = [...this.buildings].every(([number, old]) => buildings.some(b => b.number === number && b === old));
+    const added = isKept ? buildings.filter(b => !this.buildings.has(b.number)) : buildings;
+    const chunks = Math.ceil(added.length / kChunkBuildings) + (isKept ? this.chunks.length : 0);
+    this.buildings = new Map(buildings.map(b => [b.number, b]));
+    if (!isKept || chunks > kMostChunks) this.rebuild(buildings);
+    else this.append(added, kChunkBuildings);
+    this.box = new Box3();
+    for (const chunk of this.chunks) {
+      chunk.mesh.geometry.computeBoundingBox();
+      if (chunk.triangles > 0) this.box.union(chunk.mesh.geometry.boundingBox!);
+    }
+    this.boxes.leaveOut(new Set(this.buildings.keys()));
+    this.painter.paint(this.paint);
+    this.requestRender();
+  }
+
+  /** Boxes for buildings whose geometry has not come. */
+  setBoxes(boxes: PlacedBox[]): void {
+    this.boxes.set(boxes, new Set(this.buildings.keys()));
+    this.requestRender();
+  }
+
+  /** With other looks of classes, `looks` is a new object; the rest may change from call to call. */
+  setPaint(paint: Paint, buildings?: Iterable<number>): void {
+    const hasNewLooks = paint.looks !== this.paint.looks || paint.unknown !== this.paint.unknown;
+    this.paint = paint;
+    if (hasNewLooks) this.painter.setLooks(paint);
+    this.painter.paint(paint, buildings);
+    this.boxes.paint(paint);
+    this.requestRender();
+  }
+
+  setColours(colours: {ground: string; accent: string; change: string; edge: string}): void {
+    for (const name of ['ground', 'accent', 'change', 'edge'] as const)
+      this.uniforms[name].value.fromArray(rgb(colours[name]).map(c => c / 255));
+    this.renderer?.setClearColor(parseInt(colours.ground.slice(1), 16));
+    this.requestRender();
+  }
+
+  setHiddenLines(areShown: boolean): void {
+    for (const chunk of this.chunks) chunk.hiddenLines.visible = areShown;
+    this.materials.hiddenLines.visible = areShown;
+    this.requestRender();
+  }
+
+  /** Leaves out what lies on the side of a plane to which its normal points; null shows all. */
+  setCut(normal: Vector3 | null, offset = 0): void {
+    this.uniforms.cut.value.set(normal?.x ?? 0, normal?.y ?? 0, normal?.z ?? 0, offset);
+    this.requestRender();
+  }
+
+  /** Lines beside the buildings (the boxes of the truth): three coordinates in metres a point, two points a line. */
+  setExtraLines(positions: Float32Array | null, colours = new Float32Array(0)): void {
+    if (this.extra) {
+      this.scene.remove(this.extra);
+      this.extra.geometry.dispose();
+      this.extra = null;
+    }
+    if (positions) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute('position', new BufferAttribute(positions, 3));
+      geometry.setAttribute('tint', new BufferAttribute(colours, 3));
+      this.extra = new LineSegments(geometry, makeExtraLineMaterial());
+      this.extra.renderOrder = 3;
+      this.scene.add(this.extra);
+    }
+    this.requestRender();
+  }
+
+  // ---- where it looks ----
+
+  get bounds(): Box3 {
+    const all = this.box.clone();
+    return all.union(this.boxes.bounds);
+  }
+
+  /** To a selection, from outside and a little above; to everything if there is none. */
+  fly(selection: Selection | null): void {
+    if (!selection) return this.camera.flyTo(this.bounds, null);
+    this.flyToRefs(this.refs.filter(ref => ref.building === selection.building &&
+      (selection.feature === undefined && selection.polygon === undefined || isMeant(ref, selection))));
+  }
+
+  flyToParts(parts: Part[]): void {
+    const wanted = new Set(parts.map(([b, f]) => `${b} ${f}`));
+    this.flyToRefs(this.refs.filter(ref => ref.owners.some(f => wanted.has(`${ref.building} ${f}`))));
+  }
+
+  private flyToRefs(refs: PolygonRef[]): void {
+    const box = new Box3();
+    const outside = new Vector3();
+    for (const ref of refs) {
+      const {vertices_mm: mm, polygons} = this.buildings.get(ref.building)!;
+      const ring = polygons[ref.polygon]!.rings[0] ?? [];
+      const points = ring.map(v => new Vector3(mm[3 * v]! / 1000, mm[3 * v + 1]! / 1000, mm[3 * v + 2]! / 1000));
+      for (const point of points) box.expandByPoint(point);
+      for (let i = 2; i < points.length; ++i)
+        outside.add(points[i - 1]!.clone().sub(points[0]!).cross(points[i]!.clone().sub(points[0]!)));
+    }
+    if (!box.isEmpty()) this.camera.flyTo(box, outside.length() > 0.05 ? outside.normalize() : null);
+  }
+
   /** Looks from where the other looks, and the other from where this one does. */
-  follow(_other: BuildingScene): void {}
-  dispose(): void {}
+  follow(other: BuildingScene): void { this.camera.tie(other.camera); }
+
+  /** The middle of the box of a feature's polygons; null if it has none here. */
+  centreOf([building, feature]: Part): Vector3 | null {
+    const found = this.buildings.get(building);
+    if (!found) return null;
+    const box = new Box3();
+    for (const polygon of found.polygons) {
+      if (!polygon.owners.includes(feature)) continue;
+      for (const v of polygon.rings[0] ?? [])
+        box.expandByPoint(new Vector3(found.vertices_mm[3 * v]! / 1000, found.vertices_mm[3 * v + 1]! / 1000, found.vertices_mm[3 * v + 2]! / 1000));
+    }
+    return box.isEmpty() ? null : box.getCenter(new Vector3());
+  }
+
+  /** Where a point of the world lies in the picture, in CSS pixels; null behind the camera. */
+  project(point: Vector3): {x: number; y: number} | null {
+    const p = point.clone().project(this.camera.three);
+    if (p.z > 1) return null;
+    return {x: (p.x + 1) / 2 * this.element.clientWidth, y: (1 - p.y) / 2 * this.element.clientHeight};
+  }
+
+  /** What lies under a point of the window that is neither hidden nor cut away. */
+  hitAt(clientX: number, clientY: number): Hit | null {
+    const area = this.element.getBoundingClientRect();
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2(2 * (clientX - area.left) / area.width - 1, 1 - 2 * (clientY - area.top) / area.height), this.camera.three);
+    let best: {distance: number; hit: Hit} | null = null;
+    for (const chunk of this.chunks) {
+      const sphere = chunk.mesh.geometry.boundingSphere;
+      if (chunk.triangles === 0 || (sphere && !ray.ray.intersectsSphere(sphere))) continue;
+      for (const found of bvhOf(chunk).raycast(ray.ray, 2)) {
+        if (best && found.distance >= best.distance) continue;
+        const number = chunk.mesh.geometry.getAttribute('number').getX(found.face!.a);
+        const ref = this.refs[number];
+        if (ref && !this.isAway(ref, found.point)) best = {distance: found.distance, hit: {selection: this.selectionOf(ref), point: found.point}};
+      }
+    }
+    const box = this.boxes.hit(ray.ray);
+    if (box && (!best || box.distance < best.distance)) return {selection: {building: box.building}, point: box.point};
+    return best?.hit ?? null;
+  }
+
+  /** The corner of the buildings that is nearest to a point, of the polygon that was hit. */
+  cornerNear(hit: Hit): Vector3 {
+    const {building, polygon} = hit.selection;
+    const found = this.buildings.get(building);
+    let best = hit.point, distance = Infinity;
+    for (const ring of found?.polygons[polygon ?? -1]?.rings ?? [])
+      for (const v of ring) {
+        const corner = new Vector3(found!.vertices_mm[3 * v]! / 1000, found!.vertices_mm[3 * v + 1]! / 1000, found!.vertices_mm[3 * v + 2]! / 1000);
+        if (corner.distanceTo(hit.point) < distance) { distance = corner.distanceTo(hit.point); best = corner; }
+      }
+    return best;
+  }
+
+  private selectionOf(ref: PolygonRef): Selection {
+    const feature = shownFeature(ref.owners, this.paint.labels.get(ref.building));
+    return {building: ref.building, polygon: ref.polygon, ...(feature >= 0 ? {feature} : {})};
+  }
+
+  private isAway(ref: PolygonRef, point: Vector3): boolean {
+    const cut = this.uniforms.cut.value;
+    if (cut.x * cut.x + cut.y * cut.y + cut.z * cut.z > 0.5 && cut.x * point.x + cut.y * point.y + cut.z * point.z > cut.w) return true;
+    const labels = this.paint.labels.get(ref.building);
+    const feature = shownFeature(ref.owners, labels);
+    return this.paint.hidden.has(feature < 0 ? -2 : labels?.[feature] ?? -1);
+  }
+
+  // ---- drawing ----
+
+  requestRender(): void {
+    if (this.isWaiting) return;
+    this.isWaiting = true;
+    requestAnimationFrame(() => { this.isWaiting = false; this.render(); });
+  }
+
+  /** Calls that the last picture took. */
+  get drawCalls(): number { return this.renderer?.info.render.calls ?? 0; }
+
+  private render(): void {
+    if (!this.renderer || this.element.clientWidth === 0) return;
+    this.camera.fitDepth(this.bounds);
+    // A pattern's period is some ten pixels where the camera looks at.
+    const height = this.element.clientHeight;
+    this.uniforms.period.value = 9 * this.camera.distance * 0.73 / height;
+    this.renderer.render(this.scene, this.camera.three);
+    this.host.dataset['drawCalls'] = String(this.drawCalls);
+    for (const call of this.onRender) call();
+  }
+
+  private resize(): void {
+    const {clientWidth: width, clientHeight: height} = this.element;
+    if (width === 0 || height === 0 || !this.renderer) return;
+    this.camera.resize(width, height);
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height);
+    this.render();
+  }
+
+  private rebuild(buildings: SceneBuilding[]): void {
+    for (const chunk of this.chunks) this.drop(chunk);
+    this.chunks = [];
+    this.refs = [];
+    this.painter = new Painter(this.uniforms, this.refs);
+    this.painter.setLooks(this.paint);
+    this.append(buildings, Math.max(kChunkBuildings, Math.ceil(buildings.length / (kMostChunks / 2))));
+  }
+
+  private append(buildings: SceneBuilding[], size: number): void {
+    for (let i = 0; i < buildings.length; i += size) {
+      const builder = new ChunkBuilder(this.refs);
+      for (const building of buildings.slice(i, i + size)) {
+        const begin = this.refs.length;
+        builder.add(building);
+        this.painter.noteRange(building.number, begin, this.refs.length);
+      }
+      const chunk = builder.finish(this.materials);
+      chunk.hiddenLines.visible = this.materials.hiddenLines.visible;
+      this.chunks.push(chunk);
+      this.chunkGroup.add(chunk.mesh, chunk.lines, chunk.hiddenLines);
+    }
+  }
+
+  private drop(chunk: Chunk): void {
+    this.chunkGroup.remove(chunk.mesh, chunk.lines, chunk.hiddenLines);
+    chunk.mesh.geometry.dispose();
+    chunk.lines.geometry.dispose();
+  }
+
+  dispose(): void {
+    for (const chunk of this.chunks) this.drop(chunk);
+    this.chunks = [];
+    this.camera.dispose();
+    this.renderer?.dispose();
+    this.renderer?.forceContextLoss();
+    this.element.remove();
+  }
+
+  // ---- pointer ----
+
+  /** A click is a press without a move: the end of turning the scene chooses nothing. */
+  private listen(): void {
+    const kSteadyPx = 5;
+    let down: PointerEvent | null = null;
+    const canvas = this.renderer!.domElement;
+    canvas.addEventListener('pointerdown', event => { down = event; });
+    canvas.addEventListener('pointerup', event => {
+      if (!down || event.button !== 0 || Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) > kSteadyPx) return;
+      const hit = this.hitAt(event.clientX, event.clientY);
+      for (const call of this.onPick) call(hit, event);
+    });
+    let isAsked = false;
+    canvas.addEventListener('pointermove', event => {
+      if (isAsked || event.buttons !== 0 || event.pointerType === 'touch') return;
+      isAsked = true;
+      requestAnimationFrame(() => {
+        isAsked = false;
+        const hit = this.hitAt(event.clientX, event.clientY);
+        for (const call of this.onHover) call(hit, event);
+      });
+    });
+    canvas.addEventListener('pointerleave', event => { for (const call of this.onHover) call(null, event); });
+    canvas.addEventListener('contextmenu', event => {
+      event.preventDefault();
+      if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) > kSteadyPx) return;
+      const hit = this.hitAt(event.clientX, event.clientY);
+      for (const call of this.onContext) call(hit, event);
+    });
+  }
 }

@@ -1,0 +1,81 @@
+// Buildings whose geometry has not come stand as boxes: one call for all of them, however many.
+import {Box3, BoxGeometry, BufferAttribute, Color, DynamicDrawUsage, InstancedMesh, Matrix4, Group, Vector3, type Ray} from 'three';
+import type {Vec3} from '../source';
+import {makeBoxMaterial} from './materials';
+import type {Paint} from './paint';
+import {heatColour, surfaceColours} from './palette';
+
+/** A building's box in metres from the origin of the scene. */
+export interface PlacedBox { building: number; from: Vec3; to: Vec3 }
+
+export class BuildingBoxes {
+  readonly object = new Group();
+  readonly bounds = new Box3();
+  private placed: PlacedBox[] = [];
+  private mesh: InstancedMesh | null = null;
+  private away: ReadonlySet<number> = new Set();
+
+  set(boxes: PlacedBox[], away: ReadonlySet<number>): void {
+    this.placed = boxes;
+    this.bounds.makeEmpty();
+    for (const box of boxes) this.bounds.expandByPoint(new Vector3(...box.from)).expandByPoint(new Vector3(...box.to));
+    this.mesh?.dispose();
+    this.object.clear();
+    this.mesh = null;
+    if (boxes.length === 0) return;
+    this.mesh = new InstancedMesh(shadedBox(), makeBoxMaterial(), boxes.length);
+    this.mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+    this.mesh.frustumCulled = false;
+    this.object.add(this.mesh);
+    for (let i = 0; i < boxes.length; ++i) this.mesh.setColorAt(i, new Color(surfaceColours.wall));
+    this.leaveOut(away);
+  }
+
+  /** Those that are drawn as they are leave their boxes. */
+  leaveOut(away: ReadonlySet<number>): void {
+    this.away = away;
+    if (!this.mesh) return;
+    const matrix = new Matrix4();
+    this.placed.forEach(({building, from, to}, i) => {
+      const size = away.has(building) ? [0, 0, 0] : to.map((x, k) => Math.max(0.1, x - from[k]!));
+      matrix.makeScale(size[0]!, size[1]!, size[2]!);
+      matrix.setPosition((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2);
+      this.mesh!.setMatrixAt(i, matrix);
+    });
+    this.mesh.instanceMatrix.needsUpdate = true;
+    this.mesh.visible = this.placed.some(({building}) => !away.has(building));
+  }
+
+  paint(paint: Paint): void {
+    if (!this.mesh) return;
+    this.placed.forEach(({building}, i) => {
+      const heat = paint.heat?.get(building);
+      this.mesh!.setColorAt(i, new Color(heat === undefined ? surfaceColours.wall : heatColour(heat)));
+    });
+    this.mesh.instanceColor!.needsUpdate = true;
+  }
+
+  hit(ray: Ray): {building: number; distance: number; point: Vector3} | null {
+    let best: {building: number; distance: number; point: Vector3} | null = null;
+    const box = new Box3();
+    for (const {building, from, to} of this.placed) {
+      if (this.away.has(building)) continue;
+      box.min.set(...from);
+      box.max.set(...to);
+      const point = ray.intersectBox(box, new Vector3());
+      if (!point) continue;
+      const distance = point.distanceTo(ray.origin);
+      if (!best || distance < best.distance) best = {building, distance, point};
+    }
+    return best;
+  }
+}
+
+/** A unit box whose sides have the shades that materials.ts gives them, so that it needs no light. */
+function shadedBox(): BoxGeometry {
+  const box = new BoxGeometry(1, 1, 1);
+  const shades = [0.86, 0.8, 0.76, 0.9, 1, 0.7];
+  const corners = Array.from({length: 24}, (_, corner) => shades[Math.floor(corner / 4)]!);
+  box.setAttribute('shade', new BufferAttribute(new Float32Array(corners), 1));
+  return box;
+}

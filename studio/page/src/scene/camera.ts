@@ -1,0 +1,148 @@
+// Where the picture is seen from: turned, moved, zoomed to the cursor by mouse, touch or keys; two may be tied together.
+import {Box3, MOUSE, PerspectiveCamera, Spherical, Vector3} from 'three';
+import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+
+const kFieldDeg = 40;
+const kTurn = Math.PI / 24;
+const kFlightMs = 320;
+const kFirstDirection = new Vector3(0.5, -0.8, 0.5).normalize();
+
+export class Camera {
+  readonly three = new PerspectiveCamera(kFieldDeg, 1, 0.1, 1e5);
+  private readonly controls: OrbitControls;
+  private readonly tied: Camera[] = [];
+  private flight = 0;
+
+  constructor(element: HTMLElement, private readonly onChange: () => void) {
+    this.three.up.set(0, 0, 1);
+    this.three.position.set(20, -30, 20);
+    this.controls = new OrbitControls(this.three, element);
+    this.controls.zoomToCursor = true;
+    this.controls.minDistance = 0.3;
+    this.controls.mouseButtons = {LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN};
+    this.controls.addEventListener('change', () => this.moved());
+    this.controls.addEventListener('start', () => { this.flight = 0; });
+    element.addEventListener('keydown', event => this.onKey(event));
+  }
+
+  get distance(): number { return this.three.position.distanceTo(this.controls.target); }
+  get target(): Vector3 { return this.controls.target; }
+  /** From the camera into the picture. */
+  get direction(): Vector3 { return this.controls.target.clone().sub(this.three.position).normalize(); }
+
+  resize(width: number, height: number): void {
+    this.three.aspect = width / height;
+    this.three.updateProjectionMatrix();
+  }
+
+  /** The nearest and the farthest depth that are drawn, so that precision goes to what there is. */
+  fitDepth(bounds: Box3): void {
+    if (bounds.isEmpty()) return;
+    const size = bounds.getSize(new Vector3()).length();
+    const away = this.three.position.distanceTo(bounds.getCenter(new Vector3()));
+    this.three.far = away + size + 10;
+    this.three.near = Math.max(0.02, Math.min(this.distance / 20, Math.max(0, away - size)) , this.three.far / 2e4);
+    this.three.updateProjectionMatrix();
+  }
+
+  /** Looks at a box so that it fills the picture, from `outside` and a little above, or from where it looks now. */
+  flyTo(box: Box3, outside: Vector3 | null): void {
+    if (box.isEmpty()) return;
+    const direction = outside ? outside.clone().add(new Vector3(0.25, -0.25, 0.4)).normalize() : kFirstDirection;
+    this.look(box, direction);
+  }
+
+  look(box: Box3, direction: Vector3): void {
+    const centre = box.getCenter(new Vector3());
+    const radius = Math.max(1.2, box.getSize(new Vector3()).length() / 2);
+    const field = kFieldDeg * Math.PI / 360;
+    const narrow = Math.min(field, Math.atan(Math.tan(field) * this.three.aspect));
+    const distance = 1.04 * radius / Math.sin(narrow);
+    this.goTo(centre.clone().addScaledVector(direction, distance), centre);
+  }
+
+  /** From the front, the side, above: the numbers 1, 2, 3. */
+  lookAlong(axis: 'front' | 'side' | 'above', box: Box3): void {
+    const direction = {front: new Vector3(0, -1, 0.02), side: new Vector3(1, 0, 0.02), above: new Vector3(0, -0.001, 1)}[axis];
+    if (!box.isEmpty()) this.look(box, direction.normalize());
+  }
+
+  private goTo(position: Vector3, target: Vector3): void {
+    const number = ++this.flight;
+    const from = {position: this.three.position.clone(), target: this.controls.target.clone()};
+    const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    const begin = performance.now();
+    const step = () => {
+      if (number !== this.flight) return;
+      const t = isStill ? 1 : Math.min(1, (performance.now() - begin) / kFlightMs);
+      const eased = 1 - (1 - t) ** 3;
+      this.three.position.lerpVectors(from.position, position, eased);
+      this.controls.target.lerpVectors(from.target, target, eased);
+      this.controls.update();
+      this.moved();
+      if (t < 1) requestAnimationFrame(step);
+    };
+    step();
+  }
+
+  tie(other: Camera): void {
+    if (!this.tied.includes(other)) this.tied.push(other);
+    if (!other.tied.includes(this)) other.tied.push(this);
+    this.copy(other);
+  }
+
+  private copy(other: Camera): void {
+    this.three.position.copy(other.three.position);
+    this.three.quaternion.copy(other.three.quaternion);
+    this.controls.target.copy(other.controls.target);
+    this.three.updateMatrixWorld();
+    this.onChange();
+  }
+
+  private moved(): void {
+    for (const other of this.tied) other.copy(this);
+    this.onChange();
+  }
+
+  private turn(sideways: number, upwards: number): void {
+    const offset = this.three.position.clone().sub(this.controls.target);
+    const place = new Spherical().setFromVector3(new Vector3(offset.x, offset.z, -offset.y));
+    place.theta += sideways;
+    place.phi = Math.max(0.01, Math.min(Math.PI - 0.01, place.phi + upwards));
+    const turned = new Vector3().setFromSpherical(place);
+    this.three.position.copy(this.controls.target).add(new Vector3(turned.x, -turned.z, turned.y));
+    this.controls.update();
+    this.moved();
+  }
+
+  private shift(right: number, up: number): void {
+    const step = this.distance / 20;
+    const move = new Vector3().setFromMatrixColumn(this.three.matrix, 0).multiplyScalar(right * step)
+      .add(new Vector3().setFromMatrixColumn(this.three.matrix, 1).multiplyScalar(up * step));
+    this.three.position.add(move);
+    this.controls.target.add(move);
+    this.controls.update();
+    this.moved();
+  }
+
+  zoom(factor: number): void {
+    this.three.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+    this.moved();
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const arrow = ({ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]} as Record<string, [number, number]>)[event.key];
+    if (arrow) event.shiftKey ? this.shift(...arrow) : this.turn(arrow[0] * kTurn, -arrow[1] * kTurn);
+    else if (event.key === '+' || event.key === '=') this.zoom(0.85);
+    else if (event.key === '-') this.zoom(1 / 0.85);
+    else return;
+    event.preventDefault();
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+    for (const other of this.tied) other.tied.splice(other.tied.indexOf(this), 1);
+  }
+}

@@ -1,0 +1,126 @@
+// Many buildings as one mesh and one set of lines, so that thousands are drawn in few calls. Every corner carries the number of its
+// polygon; what a polygon looks like stands in a texture (paint.ts), so that a new label costs no geometry.
+import {BufferAttribute, BufferGeometry, LineSegments, Mesh, type ShaderMaterial} from 'three';
+import {MeshBVH} from 'three-mesh-bvh';
+import type {SceneBuilding} from './building_scene';
+import {normalOf, planeAxes, triangulate, unit, type Point} from './triangulate';
+
+/** What a polygon of the scene is. */
+export interface PolygonRef {
+  building: number; polygon: number; owners: number[]; isRoof: boolean;
+}
+
+export interface Materials { faces: ShaderMaterial; lines: ShaderMaterial; hiddenLines: ShaderMaterial }
+
+export interface Chunk {
+  mesh: Mesh; lines: LineSegments; hiddenLines: LineSegments; buildings: number[]; triangles: number; bvh: MeshBVH | null;
+}
+
+/** Polygons steeper than this are walls, in degrees from level. */
+const kWallSlope = 70;
+const kRoof = Math.cos(kWallSlope * Math.PI / 180);
+/** Edges between polygons tilted by less are not drawn, unless they lie in different features. */
+const kFlat = Math.cos(5 * Math.PI / 180);
+
+interface Edge { a: number; b: number; first: number; second: number; isCrease: boolean }
+
+export class ChunkBuilder {
+  private readonly positions: number[] = [];
+  private readonly normals: number[] = [];
+  private readonly uvs: number[] = [];
+  private readonly numbers: number[] = [];
+  private readonly index: number[] = [];
+  private readonly linePositions: number[] = [];
+  private readonly lineSides: number[] = [];
+  private readonly buildings: number[] = [];
+
+  /** `refs` gets the polygons, whose numbers are their places there. */
+  constructor(private readonly refs: PolygonRef[]) {}
+
+  add(building: SceneBuilding): void {
+    this.buildings.push(building.number);
+    const mm = building.vertices_mm;
+    const at = (v: number): Point => [mm[3 * v]! / 1000, mm[3 * v + 1]! / 1000, mm[3 * v + 2]! / 1000];
+    const edges = new Map<number, Edge>();
+    const vertexCount = mm.length / 3;
+    const planes: [number, number, number][] = [];
+    const base = this.refs.length;
+    building.polygons.forEach((polygon, number) => {
+      const rings = polygon.rings.map(ring => ring.map(at));
+      const normal = unit(normalOf(rings[0] ?? []));
+      planes.push(normal);
+      this.refs.push({building: building.number, polygon: number, owners: polygon.owners, isRoof: isRoof(polygon.surface, normal)});
+      if (rings[0] && rings[0].length >= 3) this.addFaces(rings, normal, base + number);
+      for (const ring of polygon.rings)
+        for (let i = 0; i < ring.length; ++i)
+          noteEdge(edges, vertexCount, ring[i]!, ring[(i + 1) % ring.length]!, base + number, planes, base, this.refs);
+    });
+    for (const edge of edges.values()) {
+      if (!edge.isCrease) continue;
+      this.linePositions.push(...at(edge.a), ...at(edge.b));
+      this.lineSides.push(edge.first, edge.second, edge.first, edge.second);
+    }
+  }
+
+  private addFaces(rings: Point[][], normal: [number, number, number], number: number): void {
+    const axes = planeAxes(normal);
+    const [u, v] = axes;
+    const begin = this.positions.length / 3;
+    for (const ring of rings)
+      for (const p of ring) {
+        this.positions.push(p[0], p[1], p[2]);
+        this.normals.push(Math.round(127 * normal[0]), Math.round(127 * normal[1]), Math.round(127 * normal[2]));
+        this.uvs.push(p[0] * u[0] + p[1] * u[1] + p[2] * u[2], p[0] * v[0] + p[1] * v[1] + p[2] * v[2]);
+        this.numbers.push(number);
+      }
+    for (const i of triangulate(rings, axes)) this.index.push(begin + i);
+  }
+
+  finish(materials: Materials): Chunk {
+    const faces = new BufferGeometry();
+    faces.setAttribute('position', new BufferAttribute(new Float32Array(this.positions), 3));
+    faces.setAttribute('normal', new BufferAttribute(new Int8Array(this.normals), 3, true));
+    faces.setAttribute('uv', new BufferAttribute(new Float32Array(this.uvs), 2));
+    faces.setAttribute('number', new BufferAttribute(new Float32Array(this.numbers), 1));
+    faces.setIndex(new BufferAttribute(new Uint32Array(this.index), 1));
+    const lines = new BufferGeometry();
+    lines.setAttribute('position', new BufferAttribute(new Float32Array(this.linePositions), 3));
+    lines.setAttribute('sides', new BufferAttribute(new Float32Array(this.lineSides), 2));
+    faces.computeBoundingSphere();
+    lines.computeBoundingSphere();
+    const hiddenLines = new LineSegments(lines, materials.hiddenLines);
+    hiddenLines.renderOrder = 2;
+    return {
+      mesh: new Mesh(faces, materials.faces), lines: new LineSegments(lines, materials.lines), hiddenLines,
+      buildings: this.buildings, triangles: this.index.length / 3, bvh: null
+    };
+  }
+}
+
+/** The tree that finds what a ray hits, made when it is first asked for. */
+export function bvhOf(chunk: Chunk): MeshBVH {
+  chunk.bvh ??= new MeshBVH(chunk.mesh.geometry, {indirect: true});
+  return chunk.bvh;
+}
+
+function isRoof(surface: string | undefined, normal: Point): boolean {
+  if (surface) return surface === 'RoofSurface';
+  return normal[2] > kRoof;
+}
+
+function noteEdge(edges: Map<number, Edge>, vertexCount: number, from: number, to: number, number: number,
+                  planes: [number, number, number][], base: number, refs: PolygonRef[]): void {
+  if (from === to) return;
+  const a = Math.min(from, to), b = Math.max(from, to);
+  const key = a * vertexCount + b;
+  const edge = edges.get(key);
+  if (!edge) {
+    edges.set(key, {a, b, first: number, second: number, isCrease: true});
+    return;
+  }
+  if (edge.second !== edge.first) { edge.isCrease = true; return; }
+  edge.second = number;
+  const p = planes[edge.first - base]!, q = planes[number - base]!;
+  const isFlat = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] > kFlat;
+  edge.isCrease = !isFlat || refs[edge.first]!.owners[0] !== refs[number]!.owners[0];
+}

@@ -1,0 +1,175 @@
+// How faces and lines are drawn. A face looks up its polygon's entry in `state` (paint.ts): red is the number of its colour in
+// `palette`, green are flags, blue is its place in the heat map.
+import {DataTexture, GLSL3, GreaterDepth, NearestFilter, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector3, Vector4, DoubleSide} from 'three';
+import type {Materials} from './chunk';
+
+export const kStateWidth = 2048;
+export const kFlag = {hidden: 1, selected: 2, hover: 4, changed: 8, found: 16, faint: 32, ghost: 64};
+
+export interface Uniforms {
+  [name: string]: {value: unknown};
+  state: {value: DataTexture}; palette: {value: DataTexture}; cut: {value: Vector4}; period: {value: number};
+  ground: {value: Vector3}; accent: {value: Vector3}; change: {value: Vector3}; edge: {value: Vector3};
+}
+
+export function stateTexture(rows: number): DataTexture {
+  const texture = new DataTexture(new Uint8Array(4 * kStateWidth * rows), kStateWidth, rows, RGBAFormat, UnsignedByteType);
+  texture.minFilter = texture.magFilter = NearestFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+export function paletteTexture(): DataTexture {
+  const texture = new DataTexture(new Uint8Array(4 * 256), 256, 1, RGBAFormat, UnsignedByteType);
+  texture.minFilter = texture.magFilter = NearestFilter;
+  return texture;
+}
+
+export function makeUniforms(): Uniforms {
+  return {
+    state: {value: stateTexture(1)}, palette: {value: paletteTexture()}, cut: {value: new Vector4(0, 0, 0, 0)}, period: {value: 0.3},
+    ground: {value: new Vector3(1, 1, 1)}, accent: {value: new Vector3()}, change: {value: new Vector3()}, edge: {value: new Vector3()}
+  };
+}
+
+const kLookUp = `
+  uniform sampler2D state;
+  ivec4 entryOf(float number) {
+    int n = int(number + .5);
+    return ivec4(texelFetch(state, ivec2(n % ${kStateWidth}, n / ${kStateWidth}), 0) * 255. + .5);
+  }`;
+
+const kFaceVertex = `
+  in float number;
+  out vec3 vNormal;
+  out vec3 vWorld;
+  out vec2 vPlane;
+  flat out ivec4 vEntry;
+  ${kLookUp}
+  void main() {
+    vEntry = entryOf(number);
+    vNormal = normalize(normalMatrix * normal);
+    vWorld = position;
+    vPlane = uv;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.);
+    if ((vEntry.g & ${kFlag.hidden}) != 0) gl_Position = vec4(2., 2., 2., 1.);
+  }`;
+
+const kFaceFragment = `
+  uniform sampler2D palette;
+  uniform vec4 cut;
+  uniform float period;
+  uniform vec3 ground, accent, change;
+  in vec3 vNormal;
+  in vec3 vWorld;
+  in vec2 vPlane;
+  flat in ivec4 vEntry;
+  out vec4 colour;
+
+  // The share of a line of half a width w around whole numbers of t, smoothed over a pixel.
+  float line(float t, float w) {
+    float d = abs(fract(t) - .5);
+    float f = max(fwidth(t), 1e-4);
+    return mix(smoothstep(w + f, w - f, .5 - d), 2. * w, smoothstep(.4, 1.2, f));
+  }
+  float dot_(vec2 p, float r) {
+    float f = max(fwidth(p.x) + fwidth(p.y), 1e-4);
+    return mix(smoothstep(r + f, r - f, length(fract(p) - .5)), 3.1 * r * r, smoothstep(.4, 1.2, f));
+  }
+  float patternOf(int kind, vec2 p) {
+    if (kind == 1) return line((p.x + p.y) * .7, .14);
+    if (kind == 2) return line((p.x - p.y) * .7, .14);
+    if (kind == 3) return line(p.y, .14);
+    if (kind == 4) return line(p.x, .14);
+    if (kind == 5) return dot_(p, .22);
+    if (kind == 6) return max(line((p.x + p.y) * .7, .1), line((p.x - p.y) * .7, .1));
+    if (kind == 7) return max(line(p.x, .1), line(p.y, .1));
+    return dot_(p, .36);
+  }
+
+  void main() {
+    if (dot(cut.xyz, vWorld) > cut.w && dot(cut.xyz, cut.xyz) > .5) discard;
+    vec3 n = normalize(vNormal);
+    if (!gl_FrontFacing) n = -n;
+    vec4 entry = texelFetch(palette, ivec2(vEntry.r, 0), 0);
+    vec3 base = entry.rgb;
+    int kind = int(entry.a * 255. + .5);
+    if (kind > 0) {
+      float light = dot(base, vec3(.3, .59, .11));
+      base = mix(base, light > .55 ? base * .35 : mix(base, vec3(1.), .8), patternOf(kind, vPlane / period));
+    }
+    float shade = .66 + .34 * max(dot(n, normalize(vec3(.35, .55, .75))), 0.) + .06 * n.y;
+    vec3 c = base * shade;
+    if ((vEntry.g & ${kFlag.faint}) != 0) c = mix(c, ground, .62);
+    if ((vEntry.g & ${kFlag.changed}) != 0) c = mix(c, change, .5 * line((gl_FragCoord.x + gl_FragCoord.y) / 9., .22));
+    if ((vEntry.g & ${kFlag.found}) != 0) c = mix(c, accent, .35);
+    if ((vEntry.g & ${kFlag.hover}) != 0) c = mix(c, accent, .22);
+    if ((vEntry.g & ${kFlag.selected}) != 0) c = mix(c, accent, .55);
+    // The inside of what is cut open.
+    if (!gl_FrontFacing && dot(cut.xyz, cut.xyz) > .5) c = mix(ground * .55, c, .25);
+    colour = vec4(c, 1.);
+  }`;
+
+const kLineVertex = `
+  in vec2 sides;
+  out vec3 vWorld;
+  flat out int vFlags;
+  ${kLookUp}
+  void main() {
+    int a = entryOf(sides.x).g, b = entryOf(sides.y).g;
+    bool isHidden = (a & b & ${kFlag.hidden}) != 0;
+    bool isGhost = (a & b & ${kFlag.ghost}) != 0;
+    vFlags = (a | b) & ${kFlag.selected | kFlag.found};
+    if ((a & b & ${kFlag.faint}) != 0 || isGhost) vFlags |= ${kFlag.faint};
+    vWorld = position;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.);
+    if (isHidden && !isGhost) gl_Position = vec4(2., 2., 2., 1.);
+  }`;
+
+const lineFragment = (strength: string) => `
+  uniform vec4 cut;
+  uniform vec3 edge, accent;
+  in vec3 vWorld;
+  flat in int vFlags;
+  out vec4 colour;
+  void main() {
+    if (dot(cut.xyz, vWorld) > cut.w && dot(cut.xyz, cut.xyz) > .5) discard;
+    float strength = ${strength};
+    if ((vFlags & ${kFlag.faint}) != 0) strength *= .3;
+    bool isMarked = (vFlags & ${kFlag.selected | kFlag.found}) != 0;
+    colour = vec4(isMarked ? accent : edge, isMarked ? 1. : strength);
+  }`;
+
+/** Boxes of buildings that have not come: a colour for each, and a shade for each side. */
+export function makeBoxMaterial(): ShaderMaterial {
+  return new ShaderMaterial({glslVersion: GLSL3,
+    vertexShader: `
+      in float shade;
+      flat out vec3 vColour;
+      void main() {
+        vColour = instanceColor * shade;
+        gl_Position = projectionMatrix * modelViewMatrix * instanceMatrix * vec4(position, 1.);
+      }`,
+    fragmentShader: 'flat in vec3 vColour; out vec4 colour; void main() { colour = vec4(vColour, 1.); }'});
+}
+
+/** Lines with colours of their own, seen through everything. */
+export function makeExtraLineMaterial(): ShaderMaterial {
+  return new ShaderMaterial({glslVersion: GLSL3, depthTest: false, transparent: true,
+    vertexShader: `
+      in vec3 tint;
+      flat out vec3 vColour;
+      void main() { vColour = tint; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.); }`,
+    fragmentShader: 'flat in vec3 vColour; out vec4 colour; void main() { colour = vec4(vColour, 1.); }'});
+}
+
+export function makeMaterials(uniforms: Uniforms): Materials {
+  const common = {glslVersion: GLSL3, uniforms};
+  return {
+    faces: new ShaderMaterial({...common, vertexShader: kFaceVertex, fragmentShader: kFaceFragment, side: DoubleSide,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}),
+    lines: new ShaderMaterial({...common, vertexShader: kLineVertex, fragmentShader: lineFragment('.62'), transparent: true}),
+    hiddenLines: new ShaderMaterial({...common, vertexShader: kLineVertex, fragmentShader: lineFragment('.2'), transparent: true,
+      depthFunc: GreaterDepth, depthWrite: false})
+  };
+}

@@ -1,0 +1,62 @@
+// What is drawn over the picture as SVG, so that it is sharp and can be read: relations, measures, marks of what changed, the name
+// under the pointer.
+import {Vector3} from 'three';
+import {el, svg} from '../dom';
+import type {BuildingScene} from './building_scene';
+
+export interface OverlayLine { from: Vector3; to: Vector3; kind: 'relation' | 'measure'; label?: string }
+export interface OverlayMark { at: Vector3; text: string; kind: 'change' | 'point' }
+
+export class Overlay {
+  private readonly root = svg('svg', {class: 'overlay', 'aria-hidden': 'true'});
+  private readonly tip = el('div', {class: 'tip', hidden: true});
+  private lines: OverlayLine[] = [];
+  private marks: OverlayMark[] = [];
+
+  constructor(private readonly scene: BuildingScene) {
+    scene.host.append(this.root, this.tip);
+    scene.onRender.push(() => this.draw());
+  }
+
+  set(lines: OverlayLine[], marks: OverlayMark[]): void {
+    this.lines = lines;
+    this.marks = marks;
+    this.draw();
+  }
+
+  /** A small text beside the pointer; null takes it away. */
+  say(text: string | null, clientX = 0, clientY = 0): void {
+    this.tip.hidden = text === null;
+    if (text === null) return;
+    this.tip.textContent = text;
+    const area = this.scene.host.getBoundingClientRect();
+    const x = Math.min(clientX - area.left + 14, area.width - this.tip.offsetWidth - 8);
+    const y = Math.min(clientY - area.top + 18, area.height - this.tip.offsetHeight - 8);
+    this.tip.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+  }
+
+  private draw(): void {
+    const shapes: Element[] = [];
+    for (const line of this.lines) {
+      const a = this.scene.project(line.from), b = this.scene.project(line.to);
+      if (!a || !b) continue;
+      shapes.push(svg('line', {class: `line-${line.kind}`, x1: a.x, y1: a.y, x2: b.x, y2: b.y}));
+      shapes.push(svg('circle', {class: `line-${line.kind}`, cx: b.x, cy: b.y, r: 3}));
+      if (line.label) shapes.push(...textAt((a.x + b.x) / 2, (a.y + b.y) / 2, line.label, `label-${line.kind}`));
+    }
+    for (const mark of this.marks) {
+      const p = this.scene.project(mark.at);
+      if (!p) continue;
+      shapes.push(svg('circle', {class: `mark-${mark.kind}`, cx: p.x, cy: p.y, r: 4}));
+      if (mark.text) shapes.push(...textAt(p.x, p.y - 14, mark.text, `label-${mark.kind}`));
+    }
+    this.root.replaceChildren(...shapes);
+  }
+}
+
+/** A text with a halo, in the middle of a point. */
+function textAt(x: number, y: number, text: string, kind: string): Element[] {
+  const element = svg('text', {class: `overlay-text ${kind}`, x, y});
+  element.textContent = text;
+  return [element];
+}
