@@ -5,11 +5,16 @@ import {Workbench} from './workbench';
 import {words} from './strings';
 import {editorPanel} from './editor/editor';
 import {paramsPanel} from './params/params';
+import {outlinePanel} from './outline/outline';
+import {changesPanel} from './changes/changes';
+import {bindCorrections} from './truth/correct_menu';
+import {samplesPanel} from './truth/samples';
 import {truthPanel} from './truth/truth';
 import {scalePanel} from './scale/scale';
 
 const token = new URLSearchParams(location.search).get('token') ?? '';
 const workbench = new Workbench(new ServerSource(token), new Store(), words.shell.title);
-workbench.addLeft(editorPanel, paramsPanel);
-workbench.addRight(truthPanel, scalePanel);
+workbench.addLeft(editorPanel, paramsPanel, outlinePanel);
+workbench.addRight(changesPanel, truthPanel, samplesPanel, scalePanel);
+bindCorrections(workbench);
 void workbench.start();

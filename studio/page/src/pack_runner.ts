@@ -35,7 +35,7 @@ export class PackRunner {
     for (const [building, classes] of Object.entries(answer.labels)) labels.set(Number(building), classes);
     this.store.set({
       labels, classes: answer.classes, params: answer.params, counts: answer.counts, unknown: answer.unknown,
-      doubtful: answer.doubtful, score: answer.score, changed: answer.changed, changed_count: answer.changed_count
+      doubtful: answer.doubtful, score: answer.score
     });
   }
 }

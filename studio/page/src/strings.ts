@@ -90,9 +90,105 @@ export const words = {
     title: 'Search', label: 'Search by id, name, label, rule or expression', placeholder: 'window, an id, width > 3 m',
     found: (n: number, text: string) => `${count(n, 'part', 'parts')}: ${text}`, nothing: (text: string) => `Nothing is called '${text}'.`
   },
-  editor: {title: 'Pack'},
-  params: {title: 'Params'},
-  truth: {title: 'Truth'},
-  scale: {title: 'Scale'},
-  learn: {title: 'Learn'}
+  editor: {
+    title: 'Pack',
+    name: 'The rule pack', bar: 'Pack',
+    line: (n: number) => `Line ${n}`,
+    findings: 'Findings',
+    summary: (errors: number, others: number, isGood: boolean) => [
+      errors > 0 ? count(errors, 'error', 'errors') : '', others > 0 ? count(others, 'remark', 'remarks') : '',
+      isGood ? '' : 'the labels are those of the last version without errors'
+    ].filter(Boolean).join(' · '),
+    undo: 'Undo', undoHint: 'Undo (Ctrl Z)', redo: 'Redo', redoHint: 'Redo (Ctrl Y)',
+    noDefinition: 'This word is not defined in the pack.',
+    formatted: 'The pack is in its canonical form.', notFormatted: 'A pack with errors cannot be formatted.',
+    rename: 'Rename', cancel: 'Cancel', newName: 'New name',
+    renameOf: (name: string) => `Rename ${name} to`,
+    renamed: (places: number, name: string) => `${count(places, 'place is', 'places are')} called ${name} now.`,
+    notRenamed: 'Only what the pack defines can be renamed.',
+    phrases: {} as Record<string, string>
+  },
+  save: {
+    save: 'Save', saveHint: 'Format and save (Ctrl S)', diff: 'Changes', diffHint: 'Show what differs from the saved file',
+    unsaved: 'not saved', saved: 'saved', builtIn: 'built in',
+    done: (path: string) => `Saved as ${path}.`,
+    notSaved: 'Nothing was written.', taken: 'The pack is the one on the disk now.',
+    takeBack: 'Take back', takeOver: 'Take this over from the disk',
+    changedOnDisk: 'Someone else has changed the file of this pack.', compare: 'Compare', later: 'Later',
+    where: 'Save the pack as', path: 'File', cancel: 'Cancel',
+    builtInWhy: 'This pack is built into the program. A copy becomes a file of your own.',
+    readOnly: 'The file of this pack cannot be written. Choose another name.',
+    conflict: 'The file has changed on the disk',
+    conflictWhy: 'Someone else has written the file since you opened it. Take over what you want from the left, then save the right side; or take the file as it is.',
+    onDisk: 'On the disk', inEditor: 'In the editor', takeDisk: 'Take the file', keepOwn: 'Save the right side'
+  },
+  params: {
+    title: 'Params',
+    filter: 'Find a param', measure: 'What the curves show', measureShort: 'Curves', allClasses: 'all classes',
+    empty: 'This pack has no params. Give a number a name, a range and a reason under params: to see it as a slider.',
+    openHint: 'Go to its line',
+    valueOf: (name: string) => `Value of ${name}`,
+    f1: (f1: number) => `F1 ${f1.toFixed(3)}`,
+    best: (f1: number, value: string) => `best ${f1.toFixed(3)} at ${value}`
+  },
+  outline: {
+    title: 'Classes',
+    empty: 'The pack has no classes yet.',
+    countHint: 'Parts with this label', f1Hint: 'F1 of this class',
+    kind: (kind: string) => ({macro: 'Macros', relation: 'Relations', group: 'Groups', generalise: 'Generalisation'})[kind] ?? kind
+  },
+  changes: {
+    name: 'Changes', since: 'Compared with', sinceEdit: 'since the last edit', sinceSave: 'since the pack was saved',
+    unknown: 'unknown', becomes: 'becomes', showAll: 'Show all in the picture',
+    part: (feature: number) => `part ${feature}`,
+    title: (before: string, after: string, n: number) => `${before} → ${after}: ${count(n, 'part', 'parts')}`,
+    more: (n: number) => `and ${n.toLocaleString('en')} more`,
+    sum: (n: number, before: number | null, after: number | null) =>
+      (n === 0 ? 'No label has changed.' : `${count(n, 'label has', 'labels have')} changed.`) +
+      (before !== null && after !== null && Math.abs(after - before) >= 5e-4 ? ` F1 ${before.toFixed(3)} → ${after.toFixed(3)}.` : '')
+  },
+  truth: {
+    title: 'Truth',
+    none: 'No truth was given. Start the studio with --truth FILE to see how well the rules do.',
+    overlay: 'Show the truth in the picture', macroF1: 'F1, mean of the classes',
+    confusion: 'What is what', corner: 'truth ↓ label →', cellHint: 'Rows are the truth, columns the labels. Choose a number to see the parts behind it.',
+    cellTitle: (truth: string, label: string, n: number) => `${count(n, 'part', 'parts')}: truth ${truth}, label ${label}`,
+    nothing: 'no object', notFound: 'no label',
+    missedOnly: (n: number) => `${count(n, 'object of the truth has', 'objects of the truth have')} no part: the picture shows the truth.`,
+    classes: 'Classes', classColumns: ['Class', 'Precision', 'Recall', 'F1', 'Found'],
+    foundOf: (found: number, all: number) => `${found} of ${all}`,
+    rules: 'Rules', ruleColumns: ['Rule', 'Right', 'Wrong', 'Precision'], ruleHint: 'Right and wrong by the truth',
+    ruleShort: (right: number, wrong: number) => `${right} ✓ ${wrong > 0 ? `${wrong} ✗` : ''}`,
+    showWrong: (n: number) => `Show the ${count(n, 'part that is', 'parts that are')} wrong`,
+    wrong: (n: number) => `${count(n, 'part', 'parts')} with a wrong label`
+  },
+  correct: {
+    title: 'Correct the label', label: 'What it is', why: 'Why (if you like)', noClass: 'none of them', withdraw: 'Withdraw the correction',
+    of: (name: string, label: string) => `${name} is called ${label}. It is`,
+    done: (name: string) => `Corrected to ${name}.`, withdrawn: 'The correction is withdrawn.', failed: 'The correction was not written.'
+  },
+  samples: {
+    title: 'Samples',
+    choose: 'Choose a part and press C, or right-click it, to say what it is.', correct: 'Correct',
+    corrections: 'Corrections',
+    noCorrections: (path: string) => `None yet. They go to ${path || 'corrections.jsonl'}.`,
+    inFile: (n: number, path: string) => `${count(n, 'correction', 'corrections')} in ${path}`,
+    withdraw: (name: string) => `Withdraw the correction of ${name}`,
+    worth: 'Worth a look', worthWhy: 'The parts whose right label would tell most.', ask: 'Find them', say: 'Say what it is',
+    nothingToAsk: 'Nothing is in doubt.'
+  },
+  learn: {
+    title: 'Learn', why: 'Searches the ranges of the params for values that fit the truth and the corrections better. You go on working meanwhile.',
+    objective: 'For', macroF1: 'F1 of all classes', f1Of: (name: string) => `F1 of ${name}`, proposeRules: 'list changes of rules, too',
+    start: 'Learn', stop: 'Stop', progress: 'How far the search is', running: 'Searching …', stopped: 'Stopped.', failed: 'Nothing could be learnt.',
+    done: 'This is the proposal. Leave out what you do not believe.', nothing: 'The pack is as good as it gets within the ranges of its params.',
+    proposal: 'The proposed pack', leaveOut: 'Leave out', accept: 'Accept', reject: 'Reject', accepted: 'Accepted. Undo takes it back.', rejected: 'Rejected.',
+    outdated: 'The pack has changed since the search began. Learn again.'
+  },
+  scale: {
+    title: 'Scale', slider: 'Scale of the map', lods: 'Levels of detail', original: 'As it is', beside: 'Beside the original',
+    hint: 'Move the slider to see the building as a map of that scale has it, by the entries of generalise: in the pack.',
+    polygons: (before: number, after: number) => `${before.toLocaleString('en')} → ${count(after, 'polygon', 'polygons')}`,
+    valid: 'A valid solid.', invalid: 'Not a valid solid.', kept: 'kept', nothing: 'Nothing had to be done.'
+  }
 };

@@ -1,0 +1,113 @@
+// Learning runs in the background; what it proposes is shown as a diff of the pack and changes nothing until it is accepted.
+import type {App} from '../app';
+import {el, replace} from '../dom';
+import {authorOf} from '../editor/author';
+import {proposalView} from '../saving/diff';
+import type {LearnAnswer} from '../source';
+import {words} from '../strings';
+
+const kPoll_ms = 400;
+
+export class LearnBox {
+  readonly element: HTMLElement;
+  private readonly objective = el('select', {'aria-label': words.learn.objective});
+  private readonly proposes = el('input', {type: 'checkbox'});
+  private readonly start = el('button', {type: 'button', class: 'button button-main', onclick: () => void this.begin()}, words.learn.start);
+  private readonly stop = el('button', {type: 'button', class: 'button', hidden: true, onclick: () => void this.end()}, words.learn.stop);
+  private readonly bar = el('progress', {hidden: true, 'aria-label': words.learn.progress});
+  private readonly told = el('p', {class: 'small', role: 'status'});
+  private readonly result = el('div', {class: 'proposal'});
+  /** The text that the running search began with: the proposal is compared with it. */
+  private asked = '';
+  private destroyView: () => void = () => undefined;
+
+  constructor(private readonly app: App) {
+    this.element = el('section', {class: 'learn'}, el('h3', {}, words.learn.title), el('p', {class: 'small quiet'}, words.learn.why),
+      el('div', {class: 'learn-form'}, el('label', {}, words.learn.objective, this.objective), el('label', {class: 'check'}, this.proposes, words.learn.proposeRules),
+        el('div', {class: 'learn-buttons'}, this.start, this.stop)),
+      this.bar, this.told, this.result);
+    app.store.watch(['score'], () => this.fillObjectives());
+  }
+
+  private fillObjectives(): void {
+    const classes = this.app.store.value.score?.classes.map(entry => entry.name) ?? [];
+    const wanted = ['macro_f1', ...classes.map(name => `f1:${name}`)];
+    if (wanted.join('\n') === [...this.objective.options].map(option => option.value).join('\n')) return;
+    const chosen = this.objective.value;
+    replace(this.objective, ...wanted.map((value, at) => el('option', {value}, at === 0 ? words.learn.macroF1 : words.learn.f1Of(classes[at - 1]!))));
+    this.objective.value = wanted.includes(chosen) ? chosen : 'macro_f1';
+  }
+
+  private setRunning(isRunning: boolean): void {
+    this.start.disabled = isRunning;
+    this.stop.hidden = this.bar.hidden = !isRunning;
+  }
+
+  private async begin(): Promise<void> {
+    this.clear();
+    this.asked = authorOf(this.app).text;
+    this.setRunning(true);
+    this.told.textContent = words.learn.running;
+    try {
+      let answer = await this.app.source.learn({objective: this.objective.value || 'macro_f1', propose: this.proposes.checked});
+      while (answer.state === 'running') {
+        this.showProgress(answer);
+        await new Promise(resolve => setTimeout(resolve, kPoll_ms));
+        answer = await this.app.source.learn({});
+      }
+      this.show(answer);
+    } catch (error) {
+      this.told.textContent = error instanceof Error ? error.message : words.source.garbled;
+    }
+    this.setRunning(false);
+  }
+
+  private async end(): Promise<void> {
+    this.stop.disabled = true;
+    await this.app.source.learn({stop: true}).catch(() => undefined);
+    this.stop.disabled = false;
+  }
+
+  private showProgress(answer: LearnAnswer): void {
+    if (answer.all > 0) {
+      this.bar.max = answer.all;
+      this.bar.value = answer.done;
+    } else {
+      this.bar.removeAttribute('value');
+    }
+  }
+
+  private show(answer: LearnAnswer): void {
+    const sentences = answer.issues.map(issue => el('li', {class: issue.severity === 'error' ? 'grave' : ''}, issue.sentence));
+    const isProposal = answer.state === 'done' && answer.text !== '' && answer.text !== this.asked;
+    this.told.textContent = answer.state === 'failed' ? words.learn.failed : answer.state === 'idle' ? words.learn.stopped : isProposal ? words.learn.done : words.learn.nothing;
+    replace(this.result,
+      answer.summary !== '' ? el('pre', {class: 'learn-summary'}, answer.summary) : null,
+      sentences.length > 0 ? el('ul', {class: 'plain small'}, ...sentences) : null);
+    if (isProposal) this.showProposal(answer.text);
+  }
+
+  private showProposal(text: string): void {
+    const view = proposalView(this.asked, text);
+    this.destroyView = view.destroy;
+    const accept = () => {
+      const author = authorOf(this.app);
+      if (author.text !== this.asked) {
+        this.told.textContent = words.learn.outdated;
+        return;
+      }
+      author.replaceText(view.textOf(), 'input.proposal');
+      this.clear();
+      this.told.textContent = words.learn.accepted;
+    };
+    this.result.append(view.element, el('div', {class: 'dialog-buttons'},
+      el('button', {type: 'button', class: 'button', onclick: () => { this.clear(); this.told.textContent = words.learn.rejected; }}, words.learn.reject),
+      el('button', {type: 'button', class: 'button button-main', onclick: accept}, words.learn.accept)));
+  }
+
+  private clear(): void {
+    this.destroyView();
+    this.destroyView = () => undefined;
+    replace(this.result);
+  }
+}
