@@ -39,6 +39,13 @@ export const words = {
     ['D', 'next doubtful part'],
     ['W', 'next wrong part'],
     ['/', 'search'],
+    ['C', 'say what the chosen part is'],
+    ['Ctrl S', 'format and save the pack'],
+    ['Ctrl Space', 'what can stand here'],
+    ['F12', 'go to the definition'],
+    ['F2', 'rename'],
+    ['Ctrl Z', 'undo'],
+    ['Esc Tab', 'leave the editor'],
     ['Esc', 'forget what is chosen'],
     ['?', 'this list']
   ] as [string, string][],
@@ -95,13 +102,12 @@ export const words = {
     name: 'The rule pack', bar: 'Pack',
     line: (n: number) => `Line ${n}`,
     findings: 'Findings',
-    summary: (errors: number, others: number, isGood: boolean) => [
-      errors > 0 ? count(errors, 'error', 'errors') : '', others > 0 ? count(others, 'remark', 'remarks') : '',
-      isGood ? '' : 'the labels are those of the last version without errors'
-    ].filter(Boolean).join(' · '),
+    summary: (errors: number, others: number) =>
+      [errors > 0 ? count(errors, 'error', 'errors') : '', others > 0 ? count(others, 'remark', 'remarks') : ''].filter(Boolean).join(' · '),
     undo: 'Undo', undoHint: 'Undo (Ctrl Z)', redo: 'Redo', redoHint: 'Redo (Ctrl Y)',
     noDefinition: 'This word is not defined in the pack.',
     formatted: 'The pack is in its canonical form.', notFormatted: 'A pack with errors cannot be formatted.',
+    emptyPack: 'This pack is empty. Write one, or begin with a small one:', startOpenings: 'Windows and doors', startExtending: 'Extend residential',
     rename: 'Rename', cancel: 'Cancel', newName: 'New name',
     renameOf: (name: string) => `Rename ${name} to`,
     renamed: (places: number, name: string) => `${count(places, 'place is', 'places are')} called ${name} now.`,

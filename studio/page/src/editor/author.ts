@@ -5,6 +5,7 @@ import {Compartment, EditorState, type Extension} from '@codemirror/state';
 import {EditorView} from '@codemirror/view';
 
 import type {App} from '../app';
+import {withNonce} from './editor_setup';
 import {PackLoop} from './pack_loop';
 import {changeOfParam, parsePack} from './pack_text';
 import {offsetOf, smallestChange} from './text_places';
@@ -22,7 +23,7 @@ export class Author {
 
   constructor(readonly app: App) {
     this.loop = new PackLoop(app);
-    this.view = new EditorView();
+    this.view = new EditorView({extensions: withNonce()});
     app.onOpenLine(line => this.openLine(line));
   }
 

@@ -12,6 +12,7 @@ import {authorOf, type Author} from './author';
 import {packEditing} from './editor_setup';
 import {listFindings, underline} from './findings';
 import {openRename, renaming} from './rename_panel';
+import {starters} from './starters';
 
 /** Does it, and tells the reader if it cannot be done. */
 function attempt(app: App, work: () => Promise<string | void>): boolean {
@@ -86,10 +87,10 @@ function findingsOf(app: App, author: Author): HTMLElement {
   const list = el('ul', {class: 'findings-list', 'aria-label': words.editor.findings});
   const summary = el('summary', {}, '');
   const box = el('details', {class: 'findings'}, summary, list);
-  app.store.watch(['findings', 'is_good'], () => {
-    const {findings, is_good} = app.store.value;
+  app.store.watch(['findings'], () => {
+    const {findings} = app.store.value;
     const errors = findings.filter(finding => finding.severity === 'error').length;
-    summary.textContent = words.editor.summary(errors, findings.length - errors, is_good);
+    summary.textContent = words.editor.summary(errors, findings.length - errors);
     box.classList.toggle('is-bad', errors > 0);
     box.hidden = findings.length === 0;
     listFindings(list, author.view, findings, line => app.openLine(line));
@@ -100,13 +101,13 @@ function findingsOf(app: App, author: Author): HTMLElement {
 export function editorPanel(app: App): Panel {
   const author = authorOf(app);
   const saving = new Saving(app, author);
-  const text = el('div', {class: 'editor-text'}, author.view.dom);
+  const text = el('div', {class: 'editor-text'}, author.view.dom, starters(author));
   const element = el('div', {class: 'panel editor'}, barOf(app, author, saving), saving.banner, text, findingsOf(app, author));
 
   let hasBegun = false;
   app.store.watch(['pack'], () => {
     const {pack} = app.store.value;
-    if (hasBegun || pack.hash === '') return;
+    if (hasBegun || (pack.hash === '' && pack.name === '')) return;
     hasBegun = true;
     author.begin(pack.text, pack.hash, [
       keysOf(app, author, saving), definitionByClick(app), renaming(app.source, (sentence, isGrave) => app.store.say(sentence, isGrave)),

@@ -33,14 +33,19 @@ const colours = HighlightStyle.define([
 ]);
 
 /** The nonce of the page's own script: style elements of the editor need it under the page's Content-Security-Policy. */
-function pageNonce(): string {
-  return document.querySelector<HTMLElement>('script[nonce], style[nonce]')?.nonce ?? '';
+export function withNonce(): Extension {
+  return EditorView.cspNonce.of(document.querySelector<HTMLElement>('script[nonce], style[nonce]')?.nonce ?? '');
+}
+
+/** Long lines are broken where there is no room to scroll to their end. */
+function wrapping(): Extension {
+  return matchMedia('(max-width: 759px)').matches ? EditorView.lineWrapping : [];
 }
 
 /** What every view of a pack has, also the read-only ones. */
 export function packLook(): Extension {
   return [
-    EditorView.cspNonce.of(pageNonce()), packSupport(), syntaxHighlighting(colours), lineNumbers(), highlightSpecialChars(),
+    withNonce(), wrapping(), packSupport(), syntaxHighlighting(colours), lineNumbers(), highlightSpecialChars(),
     EditorState.tabSize.of(2), indentUnit.of('  ')
   ];
 }

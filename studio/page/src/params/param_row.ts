@@ -17,6 +17,7 @@ export class ParamRow {
   private readonly slider = el('input', {type: 'range', class: 'param-slider'});
   private readonly field = el('input', {class: 'param-field', inputmode: 'decimal', autocomplete: 'off', spellcheck: 'false'});
   private readonly curveBox = el('div', {class: 'param-curve'});
+  private readonly told = el('span', {class: 'param-f1 number'});
   private readonly best = el('button', {type: 'button', class: 'link param-best'});
   private readonly reason = el('p', {class: 'param-reason'});
   private readonly ends = el('div', {class: 'param-ends number'});
@@ -29,7 +30,7 @@ export class ParamRow {
     this.slider.setAttribute('aria-label', entry.name);
     this.listen();
     this.element = el('section', {class: 'param', 'data-param': entry.name},
-      el('div', {class: 'param-head'}, this.name, this.field), this.curveBox, this.slider, this.ends, this.best, this.reason);
+      el('div', {class: 'param-head'}, this.name, this.told, this.field), this.curveBox, this.slider, this.ends, this.best, this.reason);
     this.update(entry);
   }
 
@@ -112,9 +113,10 @@ export class ParamRow {
     if (!curve || !this.hasRange) {
       replace(this.curveBox);
       this.best.hidden = true;
+      this.told.textContent = '';
       return;
     }
-    replace(this.curveBox, drawCurve(curve, this.entry.from!, this.entry.to!), el('span', {class: 'curve-here'}), el('span', {class: 'curve-f1 number'}));
+    replace(this.curveBox, drawCurve(curve, this.entry.from!, this.entry.to!), el('span', {class: 'curve-here'}));
     this.sayCurve(Number(this.slider.value));
   }
 
@@ -123,7 +125,6 @@ export class ParamRow {
     const here = this.curve && f1At(this.curve, value);
     this.best.hidden = !best || here === null || best.f1 - here < 5e-4;
     if (best) this.best.textContent = words.params.best(best.f1, written(best.value, this.unit, this.step));
-    const told = this.curveBox.querySelector('.curve-f1');
-    if (told && here !== null) told.textContent = words.params.f1(here);
+    if (here !== null) this.told.textContent = words.params.f1(here);
   }
 }

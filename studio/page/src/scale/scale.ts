@@ -6,7 +6,7 @@ import {authorOf} from '../editor/author';
 import {Divider} from '../scene/divider';
 import type {ScaleAnswer} from '../source';
 import {words} from '../strings';
-import {isOriginal, keyOf, questionOf, stopText, stopsOf, type Stop} from './stops';
+import {isOriginal, keyOf, questionOf, stopText, stopsOf, tickText, type Stop} from './stops';
 
 /** The slider may pass over stops on its way. */
 const kPause_ms = 80;
@@ -48,7 +48,7 @@ class ScalePanel {
     this.stops = stopsOf(scales.length > 0 ? scales : [1]);
     this.slider.max = String(this.stops.length - 1);
     this.slider.value = '0';
-    replace(this.ticks, ...this.stops.map(stop => el('span', {}, isOriginal(stop) ? '1:1' : stopText(stop))));
+    replace(this.ticks, ...this.stops.map(stop => el('span', {}, tickText(stop))));
     replace(this.lods, el('span', {class: 'quiet small'}, words.scale.lods), ...lods.map(lod => el('button', {
       type: 'button', class: 'chip', 'aria-pressed': 'false', 'data-lod': lod, onclick: () => this.choose({kind: 'lod', lod})
     }, lod)));

@@ -18,3 +18,9 @@ export function questionOf(building: number, stop: Stop): ScaleQuestion {
 export function stopText(stop: Stop): string {
   return stop.kind === 'scale' ? `1:${stop.scale.toLocaleString('en')}` : `LoD ${stop.lod}`;
 }
+
+/** Below the slider there is room for the number alone. */
+export function tickText(stop: Stop): string {
+  if (stop.kind === 'lod') return stop.lod;
+  return stop.scale < 10_000 ? String(stop.scale) : `${stop.scale / 1000}k`;
+}

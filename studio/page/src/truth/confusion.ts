@@ -4,16 +4,19 @@ import {el} from '../dom';
 import type {ConfusionCell, Part, Score} from '../source';
 import {words} from '../strings';
 
-/** Names of rows or columns: classes of the score in its order, then whatever else the cells name, "" (nothing) last. */
+/** What stands for "no object" in the truth and for "no label". */
+function isNothing(name: string): boolean { return name === '' || name === '-' || name === 'unknown'; }
+
+/** Names of rows or columns: classes of the score in its order, then whatever else the cells name, "nothing" last. */
 function namesOf(score: Score, side: 'truth' | 'label'): string[] {
   const present = new Set(score.confusion.filter(cell => cell.count > 0).map(cell => cell[side]));
   const known = score.classes.map(entry => entry.name).filter(name => present.has(name));
-  const others = [...present].filter(name => !known.includes(name)).sort();
+  const others = [...present].filter(name => !known.includes(name)).sort((a, b) => Number(isNothing(a)) - Number(isNothing(b)) || (a < b ? -1 : 1));
   return [...known, ...others];
 }
 
 function nameOf(name: string, side: 'truth' | 'label'): string {
-  if (name !== '' && name !== '-' && name !== 'unknown') return name;
+  if (!isNothing(name)) return name;
   return side === 'truth' ? words.truth.nothing : words.truth.notFound;
 }
 
