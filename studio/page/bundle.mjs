@@ -1,7 +1,8 @@
-// Called by bundle.sh: bundles src/main_studio.ts and src/main_view.ts into dist/ and writes dist/licences.txt from the packages
-// that went into them.
+// Called by bundle.sh: bundles src/main_studio.ts into dist/studio.js and studio.css, src/main_view.ts with view.html into dist/view.html
+// (one file, to which only the data are missing), and writes dist/licences.txt from the packages that went into them.
 import {build} from 'esbuild';
-import {existsSync, readFileSync, readdirSync, writeFileSync, mkdirSync} from 'node:fs';
+import {createHash} from 'node:crypto';
+import {mkdirSync, readFileSync, readdirSync, writeFileSync} from 'node:fs';
 import path from 'node:path';
 
 mkdirSync('dist', {recursive: true});
@@ -24,19 +25,32 @@ function exportsOf(text) {
 const common = {bundle: true, minify: true, target: 'es2022', format: 'iife', legalComments: 'none', metafile: true, charset: 'ascii', logLevel: 'warning', plugins: [withoutShaders]};
 
 const packages = new Set();
-for (const name of ['studio', 'view']) {
+async function bundle(name) {
+  const texts = {};
   for (const kind of ['ts', 'css']) {
-    const entry = `src/main_${name}.${kind}`;
-    if (!existsSync(entry)) continue;
-    const result = await build({...common, entryPoints: [entry], outfile: `dist/${name}.${kind === 'ts' ? 'js' : 'css'}`});
+    const result = await build({...common, entryPoints: [`src/main_${name}.${kind}`], write: false});
+    texts[kind] = result.outputFiles[0].text.trim();
     for (const input of Object.keys(result.metafile.inputs)) {
       const match = input.match(/node_modules\/((?:@[^/]+\/)?[^/]+)\//);
       if (match) packages.add(match[1]);
     }
   }
+  return texts;
 }
 
-let licences = 'The packages that are part of studio.js and view.js, with their licences.\n';
+const studio = await bundle('studio');
+writeFileSync('dist/studio.js', studio.ts + '\n');
+writeFileSync('dist/studio.css', studio.css + '\n');
+
+// Only this script and this style may run in the page of a file, whatever stands in its data.
+const view = await bundle('view');
+const kNotice = '/* Parts of it are three.js (MIT, Copyright 2010-2026 three.js authors) and three-mesh-bvh (MIT, Copyright 2018 Garrett Johnson). */';
+const script = `${kNotice}\n${view.ts.replaceAll('</script', '<\\/script')}`;
+const hashOf = text => `sha256-${createHash('sha256').update(text).digest('base64')}`;
+const parts = {'script-hash': hashOf(script), 'style-hash': hashOf(view.css), style: view.css, script, data: '{{data}}'};
+writeFileSync('dist/view.html', readFileSync('view.html', 'utf8').replace(/{{([a-z-]+)}}/g, (_, part) => parts[part]));
+
+let licences = 'The packages that are part of studio.js and view.html, with their licences.\n';
 for (const name of [...packages].sort()) {
   const folder = path.join('node_modules', name);
   const {version, license} = JSON.parse(readFileSync(path.join(folder, 'package.json'), 'utf8'));

@@ -1,9 +1,15 @@
-// The page that `oriel view` writes: the same workbench without editor, over the data that stand in the page.
-import {FileSource} from './file_source';
+// The page that `oriel view` writes: the same workbench without editor, over the data that stand in the page; with --after a second
+// picture behind a divider.
+import {FileSource, type FileData} from './file_source';
+import {Divider} from './scene/divider';
 import {Store} from './store';
 import {Workbench} from './workbench';
 import {words} from './strings';
 
-const data = JSON.parse(document.getElementById('data')?.textContent ?? '{}');
-const workbench = new Workbench(new FileSource(data), new Store(), words.shell.viewTitle);
-void workbench.start();
+const data = JSON.parse(document.getElementById('data')?.textContent ?? '{}') as FileData;
+const source = new FileSource(data);
+const after = source.hasAfter ? source.after() : null;
+const workbench = new Workbench(source, new Store(), words.shell.viewTitle);
+void workbench.start().then(() => {
+  if (after) new Divider(workbench).show(after.buildings, after.labels);
+});

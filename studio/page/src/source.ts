@@ -15,14 +15,24 @@ export interface Issue { code: string; severity: 'error' | 'warning' | 'note'; s
 
 export interface PackInfo { name: string; path: string | null; text: string; hash: string; is_writable: boolean }
 export interface BuildingEntry {
-  id: string; file: string; features: number; at_m: Vec3; size_m: Vec3; issues: Issue[]; is_open: boolean;
+  id: string; file: string; features: number; issues: Issue[];
+  /** The smallest corner of the building's box, from `origin_m`, and the size of the box. */
+  at_m: Vec3; size_m: Vec3;
+  /** False while it is not segmented yet: it has no geometry. */
+  is_loaded: boolean;
+  /** True if it is no closed body. */
+  is_open: boolean;
 }
 export interface StateAnswer {
   program: string; pack: PackInfo; origin_m: Vec3; buildings: BuildingEntry[]; has_truth: boolean;
   corrections: string; scales: number[]; lods: string[]; loading: {done: number; all: number};
 }
 
-export interface Polygon { source: number; rings: number[][]; owners: number[] }
+export interface Polygon {
+  source: number; rings: number[][]; owners: number[];
+  /** WallSurface, RoofSurface …, where the source knows it beforehand. */
+  surface?: string;
+}
 export interface Feature { id: string; name: string; kind: string; parent: number; box_mm: BoxMm }
 export interface BuildingGeometry {
   number: number; id: string; vertices_mm: number[]; polygons: Polygon[]; features: Feature[]; storeys_mm: number[];
@@ -59,16 +69,24 @@ export interface PackQuestion { text: string; version: number; params?: Record<s
 
 // ---- explain ----
 
-export interface ConditionRow { text: string; found: string; asked: string; holds: boolean | null; line: number; depth: number }
-export interface RuleReason { rule: string; label: string; holds: boolean; line: number; conditions: ConditionRow[] }
-export interface NearestMiss { label: string; rule: string; line: number; sentence: string }
-export interface Flip { sentence: string; param: string; value: string; line: number }
-export interface RelationEntry { name: string; features: number[] }
+export interface ConditionRow {
+  text: string; found: string; asked: string; holds: boolean | null; line: number | null; depth: number; missed_by?: string;
+}
+export interface RuleReason {
+  rule: string; label: string; holds: boolean | null; line: number | null; conditions: ConditionRow[];
+  /** File and line as text, where there is no editor to open. */
+  place?: string;
+}
+export interface NearestMiss { label: string; rule: string; line: number | null; sentence: string }
+export interface Flip { sentence: string; param: string; value: string; line: number | null }
+export interface RelationEntry { name: string; features: number[]; meaning?: string }
 export interface AttributeEntry { name: string; value: string; unit: string; meaning: string }
 export interface Correction { building: number; feature: number; class: string; by?: string; why?: string }
 export interface ExplainAnswer {
   sentence: string; label: string | null; rule: string | null; rule_line: number | null; why: RuleReason[]; why_not: NearestMiss[];
   flip: Flip | null; relations: RelationEntry[]; attributes: AttributeEntry[]; correction: Correction | null;
+  /** The verdict in the words of `oriel explain`. */
+  head?: string;
 }
 
 // ---- language ----

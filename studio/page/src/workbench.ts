@@ -17,6 +17,8 @@ import {words} from './strings';
 const kPollMs = 400;
 /** Buildings asked for at once: an answer of some megabytes. */
 const kGeometryBatch = 50;
+/** More buildings than these stand as boxes until they are chosen. */
+const kMostDrawn = 3000;
 
 export class Workbench implements App {
   readonly shell: Shell;
@@ -104,7 +106,7 @@ export class Workbench implements App {
       corrections: state.corrections, scales: state.scales, lods: state.lods,
       ...(isFirst ? {pack, text: pack.text} : {})
     });
-    await this.need(buildings.map((_, number) => number).filter(number => buildings[number]!.is_open || !this.asked.has(number)));
+    await this.need(buildings.map((_, number) => number).filter(number => buildings[number]!.is_loaded).slice(0, kMostDrawn));
     if (isFirst) this.scene.fly(null);
   }
 

@@ -88,13 +88,23 @@ function featureContent(app: App, [building, feature]: Part, answer: ExplainAnsw
     about ? el('p', {class: 'quiet small', id: 'name'}, about.name) : null,
     answer.correction ? el('p', {class: 'note'}, words.explain.corrected(answer.correction.class)) : null,
     answer.flip ? el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line)) : null,
-    section(words.explain.why, 'why', answer.why.map((rule, i) => ruleElement(app, rule, i === 0 && rule.rule === answer.rule)), words.explain.noRule),
-    section(words.explain.whyNot, 'whynot', answer.why_not.map(miss => missElement(app, miss))),
+    section(words.explain.why, 'why', answer.why.filter(isReason).map(rule => ruleElement(app, rule, rule.rule === answer.rule)), words.explain.noRule),
+    section(words.explain.whyNot, 'whynot', [...answer.why_not.map(miss => missElement(app, miss)), othersElement(app, answer.why.filter(rule => !isReason(rule)))]),
     section(words.explain.relations, 'relations', answer.relations.filter(r => r.features.length > 0).map(r => relationElement(app, building, r))),
     attributesElement(answer.attributes),
+    answer.head ? el('p', {class: 'quiet small', id: 'head'}, answer.head) : null,
     about ? el('p', {class: 'quiet small', id: 'id'}, words.explain.id, ' ', el('code', {}, about.id)) : null
   ];
   return content.filter((child): child is HTMLElement => child !== null);
+}
+
+/** The rules that do not hold, each with its first obstacle; they stay folded. */
+function othersElement(app: App, rules: RuleReason[]): HTMLElement {
+  const box = el('details', {class: 'others', hidden: rules.length === 0}, el('summary', {}, words.explain.others(rules.length)));
+  const list = el('div', {});
+  box.append(list);
+  box.addEventListener('toggle', () => { if (box.open) replace(list, ...rules.map(rule => ruleElement(app, rule, false))); });
+  return box;
 }
 
 /** "window: a 1.1 × 1.4 m hole …" as the label and what is said of it. */
@@ -104,6 +114,8 @@ function splitSentence(sentence: string, label: string): string[] {
   const rest = sentence.slice(colon + 2);
   return [label, rest.charAt(0).toUpperCase() + rest.slice(1) + (rest.endsWith('.') ? '' : '.')];
 }
+
+const isReason = (rule: RuleReason) => rule.holds === true;
 
 function section(title: string, id: string, children: HTMLElement[], empty = ''): HTMLElement | null {
   if (children.length === 0 && !empty) return null;
@@ -119,22 +131,29 @@ function lineLink(app: App, line: number | null): HTMLElement | null {
 }
 
 function ruleElement(app: App, rule: RuleReason, isOpen: boolean): HTMLElement {
-  return el('details', {class: 'rule', open: isOpen}, el('summary', {}, el('code', {}, rule.rule), rule.label ? ` → ${rule.label}` : '',
-    el('span', {class: rule.holds ? 'good' : 'grave'}, rule.holds ? words.explain.holds : words.explain.fails)),
-    el('ul', {class: 'conditions'}, ...rule.conditions.map(conditionElement)), lineLink(app, rule.line));
+  const obstacle = rule.holds === true ? null : rule.conditions.find(({holds}) => holds !== true);
+  return el('details', {class: 'rule', open: isOpen, 'data-rule': rule.rule}, el('summary', {},
+    el('span', {class: `rule-state ${kindOf(rule.holds)}`}, saidOf(rule.holds)),
+    el('code', {}, rule.rule), rule.label ? ` → ${rule.label}` : '',
+    obstacle ? el('span', {class: 'obstacle quiet'}, obstacle.found || obstacle.text) : null),
+    el('ul', {class: 'conditions'}, ...rule.conditions.map(conditionElement)), lineLink(app, rule.line),
+    rule.place ? el('span', {class: 'quiet small'}, rule.place) : null);
 }
 
+const kindOf = (holds: boolean | null) => (holds === null ? 'open' : holds ? 'good' : 'grave');
+const saidOf = (holds: boolean | null) => (holds === null ? words.explain.isOpen : holds ? words.explain.holds : words.explain.fails);
+
+/** What was found first, then what was asked; the pack's own words where nothing was found. */
 function conditionElement(condition: ConditionRow): HTMLElement {
-  const kind = condition.holds === null ? 'open' : condition.holds ? 'good' : 'grave';
-  const said = {open: words.explain.isOpen, good: words.explain.holds, grave: words.explain.fails}[kind];
-  return el('li', {class: `condition is-${kind}`, style: {'--depth': String(condition.depth)}},
-    el('span', {class: 'mark', 'aria-label': said, title: said}, {open: '?', good: '✓', grave: '✗'}[kind]),
-    el('span', {class: 'condition-text'}, condition.text), condition.found ? el('span', {class: 'found'}, condition.found) : null,
-    condition.asked ? el('span', {class: 'asked quiet'}, condition.asked) : null);
+  const {holds, found, asked, text, depth, missed_by} = condition;
+  return el('li', {class: `condition is-${kindOf(holds)}`, style: {'--depth': String(depth)}, title: text},
+    el('span', {class: 'mark', role: 'img', 'aria-label': saidOf(holds)}, {open: '?', good: '✓', grave: '✗'}[kindOf(holds)]),
+    el('span', {class: 'found'}, found || text),
+    asked || missed_by ? el('span', {class: 'asked quiet'}, [asked, missed_by].filter(Boolean).join(', ')) : null);
 }
 
 function missElement(app: App, miss: NearestMiss): HTMLElement {
-  return el('p', {class: 'miss'}, el('strong', {}, miss.label), ' ', miss.sentence, ' ', el('code', {class: 'quiet'}, miss.rule), ' ', lineLink(app, miss.line));
+  return el('p', {class: 'miss'}, el('strong', {}, miss.label), ': ', miss.sentence, ' ', el('code', {class: 'quiet'}, miss.rule), ' ', lineLink(app, miss.line));
 }
 
 function relationElement(app: App, building: number, relation: RelationEntry): HTMLElement {
@@ -142,7 +161,7 @@ function relationElement(app: App, building: number, relation: RelationEntry): H
   const kShown = 12;
   const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? geometry.get(building)?.features[f]?.kind ?? words.scene.unknown;
   const only = () => app.store.set({relation: app.store.value.relation === relation.name ? null : relation.name, shows_relations: true});
-  const button = el('button', {type: 'button', class: 'relation-name', title: words.explain.onlyRelation, onclick: only}, relation.name);
+  const button = el('button', {type: 'button', class: 'relation-name', title: relation.meaning ?? words.explain.onlyRelation, onclick: only}, relation.name.replaceAll('_', ' '));
   button.setAttribute('aria-pressed', String(app.store.value.relation === relation.name));
   button.addEventListener('click', () => queueMicrotask(() => button.setAttribute('aria-pressed', String(app.store.value.relation === relation.name))));
   return el('div', {class: 'relation'}, button, el('span', {class: 'relation-ends'},

@@ -110,13 +110,12 @@ class ScalePanel {
   }
 
   private draw(answer: ScaleAnswer): void {
-    const {geometry, labels} = this.app.store.value;
+    const {geometry} = this.app.store.value;
     this.divider ??= new Divider(this.app);
-    this.divider.after.setBuildings([{
+    this.divider.show([{
       number: this.building, vertices_mm: answer.vertices_mm, storeys_mm: geometry.get(this.building)?.storeys_mm ?? [],
       polygons: answer.polygons.map(polygon => ({rings: polygon.rings, owners: polygon.feature < 0 ? [] : [polygon.feature], surface: polygon.surface}))
     }]);
-    this.divider.after.setLabels(labels);
     this.placeDivider();
     this.say(answer);
     this.listOutcomes(answer);
@@ -125,6 +124,7 @@ class ScalePanel {
   private placeDivider(): void {
     if (!this.divider || isOriginal(this.stop)) return;
     this.divider.isShown = true;
+    this.divider.place = this.beside.checked ? Math.max(0.05, this.divider.place) : 0;
   }
 
   private say(answer: ScaleAnswer | null): void {

@@ -24,6 +24,7 @@ export function bindScene(scene: BuildingScene, app: App): void {
   store.watch(['labels', 'classes', 'filter', 'colours', 'selection', 'found', 'changed', 'shows_changes', 'score', 'doubtful'],
     () => scene.setPaint(binding.paint()));
   store.watch(['hover'], () => binding.takeHover());
+  store.watch(['selection', 'geometry'], () => overlay.setOutline(store.value.selection ? scene.outlineOf(store.value.selection) : []));
   store.watch(['shows_hidden_lines'], () => scene.setHiddenLines(store.value.shows_hidden_lines));
   store.watch(['truth', 'shows_truth', 'classes', 'buildings'], () => binding.takeTruth());
   store.watch(['selection', 'relation', 'shows_relations', 'changed', 'shows_changes', 'is_measuring', 'geometry'], () => void binding.takeLines());
@@ -75,14 +76,8 @@ class Binding {
   }
 
   takeBoxes(): void {
-    const {buildings, origin_m: origin} = this.app.store.value;
-    this.scene.setBoxes(buildings.map((entry, building) => {
-      const at = entry.at_m.map((x, i) => x - origin[i]!);
-      return {
-        building, from: [at[0]! - entry.size_m[0] / 2, at[1]! - entry.size_m[1] / 2, at[2]!],
-        to: [at[0]! + entry.size_m[0] / 2, at[1]! + entry.size_m[1] / 2, at[2]! + entry.size_m[2]]
-      };
-    }));
+    this.scene.setBoxes(this.app.store.value.buildings.map(({at_m: from, size_m: size}, building) =>
+      ({building, from, to: [from[0] + size[0], from[1] + size[1], from[2] + size[2]]})));
   }
 
   takeHover(): void {

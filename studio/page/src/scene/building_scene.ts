@@ -12,6 +12,7 @@ import {bvhOf, ChunkBuilder, type Chunk, type PolygonRef} from './chunk';
 import {makeExtraLineMaterial, makeMaterials, makeUniforms} from './materials';
 import {isMeant, kNothing, Painter, shownFeature, type Paint} from './paint';
 import {rgb} from './palette';
+import {normalOf, unit} from './triangulate';
 
 /** A building as the scene draws it. The polygons of a generalised one have `feature` as their only owner. */
 export interface SceneBuilding {
@@ -195,6 +196,27 @@ export class BuildingScene {
     return box.isEmpty() ? null : box.getCenter(new Vector3());
   }
 
+  /** The edges around what is chosen and between its faces, as pairs of points; none of a whole building. */
+  outlineOf(selection: Selection): [Vector3, Vector3][] {
+    const found = this.buildings.get(selection.building);
+    if (!found || (selection.feature === undefined && selection.polygon === undefined)) return [];
+    const at = (v: number) => new Vector3(found.vertices_mm[3 * v]! / 1000, found.vertices_mm[3 * v + 1]! / 1000, found.vertices_mm[3 * v + 2]! / 1000);
+    const edges = new Map<string, {ends: [number, number]; normals: [number, number, number][]}>();
+    found.polygons.forEach((polygon, number) => {
+      if (selection.feature !== undefined ? !polygon.owners.includes(selection.feature) : number !== selection.polygon) return;
+      const normal = unit(normalOf((polygon.rings[0] ?? []).map(v => at(v).toArray())));
+      for (const ring of polygon.rings)
+        ring.forEach((v, i) => {
+          const w = ring[(i + 1) % ring.length]!;
+          const key = v < w ? `${v} ${w}` : `${w} ${v}`;
+          if (!edges.has(key)) edges.set(key, {ends: [v, w], normals: []});
+          edges.get(key)!.normals.push(normal);
+        });
+    });
+    const isFlat = ([p, q]: [number, number, number][]) => q !== undefined && p![0] * q[0] + p![1] * q[1] + p![2] * q[2] > 0.996;
+    return [...edges.values()].filter(({normals}) => !isFlat(normals)).map(({ends}) => [at(ends[0]), at(ends[1])]);
+  }
+
   /** Where a point of the world lies in the picture, in CSS pixels; null behind the camera. */
   project(point: Vector3): {x: number; y: number} | null {
     const p = point.clone().project(this.camera.three);
@@ -325,7 +347,7 @@ export class BuildingScene {
   private listen(): void {
     const kSteadyPx = 5;
     let down: PointerEvent | null = null;
-    const canvas = this.renderer!.domElement;
+    const canvas = this.element;  // OrbitControls captures the pointer for it
     canvas.addEventListener('pointerdown', event => { down = event; });
     canvas.addEventListener('pointerup', event => {
       if (!down || event.button !== 0 || Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) > kSteadyPx) return;

@@ -5,6 +5,10 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 const kFieldDeg = 40;
 const kTurn = Math.PI / 24;
 const kFlightMs = 320;
+/** A part is shown with some of what is around it. */
+const kContext = 2.4;
+const kLeastRadiusM = 1.5;
+const kMargin = 1.12;
 const kFirstDirection = new Vector3(0.5, -0.8, 0.5).normalize();
 
 export class Camera {
@@ -49,15 +53,21 @@ export class Camera {
   flyTo(box: Box3, outside: Vector3 | null): void {
     if (box.isEmpty()) return;
     const direction = outside ? outside.clone().add(new Vector3(0.25, -0.25, 0.4)).normalize() : kFirstDirection;
-    this.look(box, direction);
+    this.look(box, direction, outside ? kContext : 1);
   }
 
-  look(box: Box3, direction: Vector3): void {
+  look(box: Box3, direction: Vector3, around = 1): void {
     const centre = box.getCenter(new Vector3());
-    const radius = Math.max(1.2, box.getSize(new Vector3()).length() / 2);
-    const field = kFieldDeg * Math.PI / 360;
-    const narrow = Math.min(field, Math.atan(Math.tan(field) * this.three.aspect));
-    const distance = 1.04 * radius / Math.sin(narrow);
+    const tall = Math.tan(kFieldDeg * Math.PI / 360);
+    const wide = tall * this.three.aspect;
+    const right = new Vector3().crossVectors(this.three.up, direction).normalize();
+    const up = new Vector3().crossVectors(direction, right);
+    let distance = kLeastRadiusM / tall;
+    for (let i = 0; i < 8; ++i) {
+      const corner = new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z)
+        .sub(centre).multiplyScalar(around * kMargin);
+      distance = Math.max(distance, corner.dot(direction) + Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / tall));
+    }
     this.goTo(centre.clone().addScaledVector(direction, distance), centre);
   }
 

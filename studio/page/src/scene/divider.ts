@@ -6,6 +6,9 @@ import {kSceneColours, namesOf, paintOf} from './bind_scene';
 import {BuildingScene, type SceneBuilding} from './building_scene';
 import {looksOf} from './palette';
 
+/** Of more buildings only the given ones are drawn at the right. */
+const kMostNeighbours = 300;
+
 export class Divider {
   /** The picture at the right of the line; it is made when it is first shown. */
   private second: BuildingScene | null = null;
@@ -25,6 +28,12 @@ export class Divider {
   }
 
   get isShown(): boolean { return !this.line.hidden; }
+  set isShown(isShown: boolean) {
+    this.line.hidden = !isShown;
+    if (this.second) this.second.element.hidden = !isShown;
+    if (isShown) this.paint();
+  }
+
   /** Where the line is, from 0 (all after) to 1 (all before). */
   get place(): number { return this.share; }
   set place(share: number) {
@@ -34,9 +43,19 @@ export class Divider {
     if (this.second) this.second.element.style.clipPath = `inset(0 0 0 ${100 * this.share}%)`;
   }
 
-  /** Shows these buildings at the right of the line. */
+  /** Shows these buildings at the right of the line, among the others as they are. */
   show(buildings: SceneBuilding[], labels: ReadonlyMap<number, number[]> | null = null): void {
     this.labels = labels;
+    const given = new Set(buildings.map(({number}) => number));
+    const {geometry} = this.app.store.value;
+    const others = geometry.size > kMostNeighbours ? [] : [...geometry.values()].filter(({number}) => !given.has(number));
+    this.after.setBuildings([...others, ...buildings]);
+    this.isShown = true;
+    this.place = this.share;
+  }
+
+  /** The picture at the right of the line. */
+  get after(): BuildingScene {
     if (!this.second) {
       this.second = new BuildingScene(this.app.scene.host);
       this.second.element.classList.add('picture-after');
@@ -47,20 +66,10 @@ export class Divider {
       this.second.setHiddenLines(this.app.store.value.shows_hidden_lines);
       this.second.onPick.push((hit, event) => { for (const call of this.app.scene.onPick) call(hit, event); });
       this.second.onHover.push((hit, event) => { for (const call of this.app.scene.onHover) call(hit, event); });
+      this.second.onContext.push((hit, event) => { for (const call of this.app.scene.onContext) call(hit, event); });
     }
-    this.second.element.hidden = false;
-    this.line.hidden = false;
-    this.second.setBuildings(buildings);
-    this.paint();
-    this.place = this.share;
+    return this.second;
   }
-
-  hide(): void {
-    this.line.hidden = true;
-    if (this.second) this.second.element.hidden = true;
-  }
-
-  get after(): BuildingScene | null { return this.second; }
 
   private paint(): void {
     if (!this.second || this.line.hidden) return;

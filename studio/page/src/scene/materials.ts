@@ -98,13 +98,13 @@ const kFaceFragment = `
       float light = dot(base, vec3(.3, .59, .11));
       base = mix(base, light > .55 ? base * .35 : mix(base, vec3(1.), .8), patternOf(kind, vPlane / period));
     }
-    float shade = .66 + .34 * max(dot(n, normalize(vec3(.35, .55, .75))), 0.) + .06 * n.y;
+    float shade = .74 + .26 * max(dot(n, normalize(vec3(.3, .5, .8))), 0.) + .05 * n.x;
     vec3 c = base * shade;
     if ((vEntry.g & ${kFlag.faint}) != 0) c = mix(c, ground, .62);
     if ((vEntry.g & ${kFlag.changed}) != 0) c = mix(c, change, .5 * line((gl_FragCoord.x + gl_FragCoord.y) / 9., .22));
-    if ((vEntry.g & ${kFlag.found}) != 0) c = mix(c, accent, .35);
+    if ((vEntry.g & ${kFlag.found}) != 0) c = mix(c, accent, .12);
     if ((vEntry.g & ${kFlag.hover}) != 0) c = mix(c, accent, .22);
-    if ((vEntry.g & ${kFlag.selected}) != 0) c = mix(c, accent, .55);
+    if ((vEntry.g & ${kFlag.selected}) != 0) c = mix(c, accent, .16);
     // The inside of what is cut open.
     if (!gl_FrontFacing && dot(cut.xyz, cut.xyz) > .5) c = mix(ground * .55, c, .25);
     colour = vec4(c, 1.);

@@ -7,11 +7,14 @@ import type {BuildingScene} from './building_scene';
 export interface OverlayLine { from: Vector3; to: Vector3; kind: 'relation' | 'measure'; label?: string }
 export interface OverlayMark { at: Vector3; text: string; kind: 'change' | 'point' }
 
+const kMostEdges = 500;
+
 export class Overlay {
   private readonly root = svg('svg', {class: 'overlay', 'aria-hidden': 'true'});
   private readonly tip = el('div', {class: 'tip', hidden: true});
   private lines: OverlayLine[] = [];
   private marks: OverlayMark[] = [];
+  private outline: [Vector3, Vector3][] = [];
 
   constructor(private readonly scene: BuildingScene) {
     scene.host.append(this.root, this.tip);
@@ -21,6 +24,12 @@ export class Overlay {
   set(lines: OverlayLine[], marks: OverlayMark[]): void {
     this.lines = lines;
     this.marks = marks;
+    this.draw();
+  }
+
+  /** The edges of what is chosen; far too many are left to the colour of its faces. */
+  setOutline(outline: [Vector3, Vector3][]): void {
+    this.outline = outline.length > kMostEdges ? [] : outline;
     this.draw();
   }
 
@@ -37,6 +46,11 @@ export class Overlay {
 
   private draw(): void {
     const shapes: Element[] = [];
+    const path = this.outline.map(([from, to]) => {
+      const a = this.scene.project(from), b = this.scene.project(to);
+      return a && b ? `M${a.x.toFixed(1)} ${a.y.toFixed(1)}L${b.x.toFixed(1)} ${b.y.toFixed(1)}` : '';
+    }).join('');
+    if (path) shapes.push(svg('path', {class: 'outline-halo', d: path}), svg('path', {class: 'outline', d: path}));
     for (const line of this.lines) {
       const a = this.scene.project(line.from), b = this.scene.project(line.to);
       if (!a || !b) continue;

@@ -43,7 +43,7 @@ export function sceneTools(app: App, scene: BuildingScene): HTMLElement {
     switchOf('shows_hidden_lines', 'hidden', words.scene.hiddenLines, 'H'),
     switchOf('is_measuring', 'measure', words.scene.measure, 'M'),
     switchOf('shows_relations', 'relations', words.scene.relations, 'R'),
-    app.source.can.edit ? switchOf('shows_changes', 'changes', words.scene.changes, 'C') : null,
+    app.source.can.edit ? switchOf('shows_changes', 'changes', words.scene.changes, '') : null,
     truth);
   const hint = el('p', {class: 'scene-hint', role: 'status'});
   store.watch(['is_measuring'], () => {
@@ -54,7 +54,7 @@ export function sceneTools(app: App, scene: BuildingScene): HTMLElement {
   scene.element.setAttribute('aria-label', words.scene.name);
   const keys = new Map<string, () => void>([
     ['f', fit], ['h', () => toggle('shows_hidden_lines')], ['m', () => toggle('is_measuring')], ['r', () => toggle('shows_relations')],
-    ['c', () => toggle('shows_changes')], ['t', () => toggle('shows_truth')], ['x', () => cutButton.click()],
+    ['t', () => toggle('shows_truth')], ['x', () => cutButton.click()],
     ['1', () => scene.camera.lookAlong('front', scene.bounds)], ['2', () => scene.camera.lookAlong('side', scene.bounds)],
     ['3', () => scene.camera.lookAlong('above', scene.bounds)],
     ['n', () => nextOf(app, 'unknown', 1)], ['N', () => nextOf(app, 'unknown', -1)], ['d', () => nextOf(app, 'doubtful', 1)],
