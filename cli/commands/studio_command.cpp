@@ -3,13 +3,19 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
+#include "oriel/rules.h"
+#include "studio/server/browser.h"
 #include "studio/server/serve.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,6 +34,21 @@ struct StudioArguments : RunOptions {
   bool has_no_browser = false;
 };
 
+namespace fs = std::filesystem;
+
+/// Where the page may save: beside the inputs, beside the pack, and where the command was called.
+std::vector<std::string> folders_of(const StudioArguments& arguments) {
+  std::vector<std::string> files = arguments.inputs;
+  if (!embedded_pack(arguments.rules)) files.push_back(arguments.rules);
+  std::vector<std::string> folders{fs::current_path().string()};
+  for (const std::string& file : files)
+    folders.push_back(fs::weakly_canonical(fs::absolute(file)).parent_path().string());
+  std::ranges::sort(folders);
+  const auto again = std::ranges::unique(folders);
+  folders.erase(again.begin(), again.end());
+  return folders;
+}
+
 studio::SessionOptions session_options(const StudioArguments& arguments) {
   studio::SessionOptions options;
   options.files = arguments.inputs;
@@ -36,22 +57,51 @@ studio::SessionOptions session_options(const StudioArguments& arguments) {
   options.rules = arguments.rules;
   options.truth = arguments.truth;
   options.corrections = arguments.corrections;
+  options.folders = folders_of(arguments);
   options.jobs = arguments.jobs;
   options.for_each = shares_in_arena(arguments.jobs);
   return options;
+}
+
+void check_inputs(const StudioArguments& arguments) {
+  for (const std::string& input : arguments.inputs) {
+    if (input == "-")
+      throw CLI::ValidationError("input", "a studio reads files, not stdin: save it to a file");
+    refuse_folder(input);
+  }
+  NamedFiles names;
+  names.add(arguments);
+  names.add_input("--rules", arguments.rules);
+  for (const std::string& truth : arguments.truth) names.add_input("--truth", truth);
+  names.add_output("--corrections", arguments.corrections);
+  names.check();
+}
+
+/// Before the worker is forked, which would write what is still in a buffer once more.
+void say_address(const StudioArguments& arguments, const std::string& address) {
+  print_out(address + "\n");
+  std::fflush(stdout);
+  if (!arguments.has_no_browser) studio::open_browser(address);
+  run_log().info("the studio is open; Ctrl-C ends it");
 }
 
 ExitCode work(StudioArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
   arguments.truth = truth_files(arguments.truth);
+  check_inputs(arguments);
   studio::ServeOptions options;
   options.port = arguments.port;
-  options.begun = [](const std::string& address) {
-    print_out(fmt::format("{}\n", address));
-    print_out({}, false);
-  };
-  return studio::serve(session_options(arguments), options) ? ExitCode::clean : ExitCode::internal;
+  options.begun = [&](const std::string& address) { say_address(arguments, address); };
+  try {
+    const bool is_well = studio::serve(session_options(arguments), options);
+    return is_well ? ExitCode::clean : ExitCode::internal;
+  } catch (const std::system_error& fault) {
+    if (fault.code() != std::errc::address_in_use && fault.code() != std::errc::permission_denied)
+      throw;
+    throw CLI::ValidationError(
+        "--port", fmt::format("{} cannot be had: {}", arguments.port, fault.code().message()));
+  }
 }
 
 }  // namespace
@@ -86,6 +136,9 @@ void add_studio(CLI::App& app, Action& action) {
   add_solid_arguments(*command, *arguments);
   add_jobs_argument(*command, arguments->jobs);
   command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes, and every request");
+  command->footer(
+      "The address that is printed has a token; who has it can use the studio.\n"
+      "Example:\n  oriel studio houses/ --rules my_pack.yaml --truth houses/");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

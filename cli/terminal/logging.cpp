@@ -25,7 +25,7 @@ using spdlog::details::log_msg;
 constexpr const char* kFindings = "findings";
 constexpr const char* kProgress = "progress";
 constexpr const char* kRun = "run";
-constexpr std::array kRooms{"kernel", "interpret", "generalise", "oriel"};
+constexpr std::array kRooms{"kernel", "interpret", "generalise", "oriel", "studio"};
 
 bool is_json = false;
 

@@ -39,6 +39,7 @@ const std::map<std::string, std::string> kAllowed{
     {"kernel/model/labelled_building.h", "a value"},
     {"kernel/model/polygon_owners.h", "which features a polygon of a page lies in"},
     {"kernel/model/version.h", "--version, status files and pages"},
+    {"studio/server/browser.h", "the studio's page is opened"},
     {"studio/server/serve.h", "the studio"},
 };
 

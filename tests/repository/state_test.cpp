@@ -16,6 +16,8 @@ const std::map<std::string, std::string> kKeepers{
     {"kernel/base/log.cpp", "loggers, behind a lock"},
     {"kernel/io/files/leftovers.cpp", "files of killed runs, behind a lock"},
     {"kernel/io/files/partial_files.cpp", "open outputs, of the one thread that writes"},
+    {"studio/server/shared_work.cpp",
+     "what a thread is at, of this thread; where a handler writes"},
 };
 
 /// A variable at namespace scope or of a function, that is not constant and outlives a call. Lines
