@@ -7,7 +7,7 @@ import {EditorView} from '@codemirror/view';
 import type {App} from '../app';
 import {withNonce} from './editor_setup';
 import {PackLoop} from './pack_loop';
-import {changeOfParam, parsePack} from './pack_text';
+import {changeOfParam} from './pack_text';
 import {offsetOf, smallestChange} from './text_places';
 
 export class Author {
@@ -67,7 +67,7 @@ export class Author {
    */
   setParam(name: string, value: string, isFirst: boolean): void {
     const text = this.text;
-    const change = changeOfParam(parsePack(text), text, name, value);
+    const change = changeOfParam(text, name, value);
     if (text.slice(change.from, change.to) === change.insert) return;
     this.param = name;
     this.view.dispatch(isFirst

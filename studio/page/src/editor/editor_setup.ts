@@ -21,12 +21,6 @@ import {packSupport} from './pack_language';
 // The colours are names of classes: editor.css has them, for dark and light.
 const colours = HighlightStyle.define([
   {tag: [tags.definition(tags.propertyName), tags.propertyName], class: 'tok-key'},
-  {tag: tags.keyword, class: 'tok-word'},
-  {tag: tags.self, class: 'tok-self'},
-  {tag: tags.function(tags.variableName), class: 'tok-function'},
-  {tag: tags.special(tags.variableName), class: 'tok-param'},
-  {tag: tags.number, class: 'tok-number'},
-  {tag: tags.unit, class: 'tok-unit'},
   {tag: [tags.operator, tags.punctuation, tags.separator, tags.squareBracket, tags.brace], class: 'tok-quiet'},
   {tag: [tags.lineComment, tags.comment], class: 'tok-comment'},
   {tag: [tags.string, tags.content], class: 'tok-text'}

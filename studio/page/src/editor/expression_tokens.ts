@@ -1,54 +1,33 @@
-// Colours of the expressions inside a pack: a tokenizer, because expressions are one line long and their words are few.
-// The compiler judges them; here is only what the eye needs.
+// The words of an expression with what they are, for colours only: the compiler judges them.
 
-import {StreamLanguage, StringStream} from '@codemirror/language';
-import {tags as t} from '@lezer/highlight';
+export interface Token { from: number; to: number; look: string }
 
-const operators = new Set(['and', 'or', 'not', 'in', 'is', 'by', 'of', 'where']);
-const quantifiers = new Set(['exists', 'none', 'all', 'count', 'min', 'max', 'mean', 'abs', 'sqrt', 'distance_along', 'gap']);
-const selves = new Set(['self', 'other', 'members', 'scale']);
-const units = /^(?:mm@map|mm|cm|m2|m3|m|deg|%)(?![A-Za-z0-9_])/;
+const kOperators = new Set(['and', 'or', 'not', 'in', 'is', 'by', 'of', 'where']);
+const kFunctions = new Set(['exists', 'none', 'all', 'count', 'min', 'max', 'mean', 'abs', 'sqrt', 'distance_along', 'gap']);
+const kSelves = new Set(['self', 'other', 'members', 'scale']);
+// In this order: a scale such as 1:500, a number with its unit, a param, a word, signs.
+const kWord = /1:\d+|(\d+(?:\.\d+)?)(?:( ?)(mm@map|mm|cm|m2|m3|m|deg|%)(?!\w))?|\$[A-Za-z_]\w*|[A-Za-z_]\w*|\.\.|[<>!=]=?|[~+*/-]/g;
 
-interface State {
-  isAfterNumber: boolean;
+function lookOfWord(word: string, next: string): string {
+  if (word.startsWith('$')) return 'tok-param';
+  if (!/^[A-Za-z_]/.test(word)) return /^\d/.test(word) ? 'tok-number' : 'tok-quiet';
+  if (kOperators.has(word)) return 'tok-word';
+  if (kFunctions.has(word) && next === '(') return 'tok-function';
+  return kSelves.has(word) ? 'tok-self' : '';
 }
 
-function wordToken(word: string, next: string): string {
-  if (operators.has(word)) return 'keyword';
-  if (quantifiers.has(word) && next === '(') return 'function';
-  if (selves.has(word)) return 'self';
-  return 'name';
-}
-
-function token(stream: StringStream, state: State): string | null {
-  const isAfterNumber = state.isAfterNumber;
-  if (stream.eatSpace()) return null;
-  state.isAfterNumber = false;
-  if (stream.match(/^"?1:\d+/)) return "number";
-  if (stream.match(/^\d+(?:\.\d+)?/)) {
-    state.isAfterNumber = true;
-    return 'number';
+export function tokensOf(text: string): Token[] {
+  const tokens: Token[] = [];
+  for (const match of text.matchAll(kWord)) {
+    const from = match.index;
+    const [whole, number, space, unit] = match;
+    if (number !== undefined && unit !== undefined) {
+      tokens.push({from, to: from + number.length, look: 'tok-number'});
+      tokens.push({from: from + number.length + (space ?? '').length, to: from + whole.length, look: 'tok-unit'});
+      continue;
+    }
+    const look = lookOfWord(whole, text[from + whole.length] ?? '');
+    if (look !== '') tokens.push({from, to: from + whole.length, look});
   }
-  if (isAfterNumber && stream.match(units)) return 'unit';
-  if (stream.match(/^\$[A-Za-z_]\w*/)) return "param";
-  const word = stream.match(/^[A-Za-z_]\w*/) as RegExpMatchArray | null;
-  if (word) return wordToken(word[0], stream.peek() ?? '');
-  if (stream.match('..')) return 'range';
-  if (stream.match(/^[<>!=~+\-*/]=?/)) return "operator";
-  stream.next();
-  return null;
+  return tokens;
 }
-
-export const expressionLanguage = StreamLanguage.define<State>({
-  name: 'oriel expression',
-  startState: () => ({isAfterNumber: false}),
-  token,
-  tokenTable: {
-    function: t.function(t.variableName),
-    self: t.self,
-    name: t.variableName,
-    unit: t.unit,
-    param: t.special(t.variableName),
-    range: t.operator,
-  },
-});

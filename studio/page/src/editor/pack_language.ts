@@ -1,58 +1,72 @@
-// The language of rule packs for the editor: YAML, with expressions where the pack has them.
-
+// Rule packs in the editor: YAML, and colours for the expressions where the pack has them. Only the lines on the screen are
+// coloured, so that a long pack costs no more than a short one.
 import {yamlLanguage} from '@codemirror/lang-yaml';
-import {LanguageSupport, LRLanguage} from '@codemirror/language';
-import {parseMixed, type Input, type SyntaxNode, type SyntaxNodeRef} from '@lezer/common';
+import {LanguageSupport, syntaxTree} from '@codemirror/language';
+import {RangeSetBuilder, type Extension} from '@codemirror/state';
+import {Decoration, ViewPlugin, type DecorationSet, type EditorView, type ViewUpdate} from '@codemirror/view';
+import type {SyntaxNode} from '@lezer/common';
 
-import {expressionLanguage} from './expression_tokens';
+import {tokensOf} from './expression_tokens';
 
-// Parts of a pack whose values are expressions or quantities, and the keys below them whose values are names or prose.
-const expressionParts = new Set(['hosts', 'params', 'macros', 'relations', 'rules', 'generalise', 'surfaces', 'invariants', 'decide']);
-const proseKeys = new Set(['why', 'id', 'label', 'type', 'name', 'title']);
+type ReadText = (from: number, to: number) => string;
 
-export function keyOf(pair: SyntaxNode, text: (from: number, to: number) => string): string {
+/** Parts of a pack whose values are expressions or quantities, and keys below them whose values are names or prose. */
+const kExpressionParts = new Set(['hosts', 'params', 'macros', 'relations', 'rules', 'generalise', 'surfaces', 'invariants', 'decide']);
+const kProseKeys = new Set(['why', 'id', 'label', 'type', 'name', 'title']);
+
+/** The key of a pair, without quotes. */
+export function keyOf(pair: SyntaxNode, read: ReadText): string {
   const key = pair.getChild('Key');
   if (!key) return '';
-  return unquoted(text(key.from, key.to).trim());
-}
-
-export function unquoted(text: string): string {
+  const text = read(key.from, key.to).trim();
   return /^(["']).*\1$/s.test(text) ? text.slice(1, -1) : text;
 }
 
-// The keys of the pairs around a node, outermost first: ["rules", "require"].
-export function keysAround(node: SyntaxNode, text: (from: number, to: number) => string): string[] {
+/** The keys of the pairs around a node, outermost first: ["rules", "require"]. */
+function keysAround(node: SyntaxNode, read: ReadText): string[] {
   const keys: string[] = [];
-  for (let at: SyntaxNode | null = node; at; at = at.parent) {
-    if (at.name === 'Pair') keys.unshift(keyOf(at, text));
-  }
+  for (let at: SyntaxNode | null = node; at; at = at.parent) if (at.name === 'Pair') keys.unshift(keyOf(at, read));
   return keys;
 }
 
-function holdsExpression(node: SyntaxNodeRef, input: Input): boolean {
-  const keys = keysAround(node.node, (from, to) => input.read(from, to));
+function holdsExpression(node: SyntaxNode, read: ReadText): boolean {
+  const keys = keysAround(node, read);
   const part = keys[0];
   const last = keys[keys.length - 1];
-  if (part === undefined || last === undefined || !expressionParts.has(part) || proseKeys.has(last)) return false;
-  const isKey = node.node.parent?.name === 'Key';
+  if (part === undefined || last === undefined || !kExpressionParts.has(part) || kProseKeys.has(last)) return false;
+  const isKey = node.parent?.name === 'Key';
   return !isKey || (part === 'rules' && keys[1] === 'score' && keys.length === 3);
 }
 
-function innerRange(node: SyntaxNodeRef): {from: number; to: number} {
-  return node.name === 'QuotedLiteral' && node.to - node.from >= 2
-    ? {from: node.from + 1, to: node.to - 1}
-    : {from: node.from, to: node.to};
+const kMarks = new Map<string, Decoration>();
+
+function markOf(look: string): Decoration {
+  let mark = kMarks.get(look);
+  if (!mark) kMarks.set(look, mark = Decoration.mark({class: look}));
+  return mark;
 }
 
-const mixed = parseMixed((node, input) => {
-  if (node.name !== 'Literal' && node.name !== 'QuotedLiteral') return null;
-  if (!holdsExpression(node, input)) return null;
-  const range = innerRange(node);
-  return range.from < range.to ? {parser: expressionLanguage.parser, overlay: [range]} : null;
-});
+function coloursOf(view: EditorView): DecorationSet {
+  const builder = new RangeSetBuilder<Decoration>();
+  const {doc} = view.state;
+  const read: ReadText = (from, to) => doc.sliceString(from, to);
+  for (const {from, to} of view.visibleRanges) {
+    syntaxTree(view.state).iterate({from, to, enter: node => {
+      if ((node.name !== 'Literal' && node.name !== 'QuotedLiteral') || !holdsExpression(node.node, read)) return;
+      for (const token of tokensOf(read(node.from, node.to))) builder.add(node.from + token.from, node.from + token.to, markOf(token.look));
+    }});
+  }
+  return builder.finish();
+}
 
-export const packLanguage: LRLanguage = yamlLanguage.configure({wrap: mixed}, 'oriel pack');
+const colouring = ViewPlugin.fromClass(class {
+  decorations: DecorationSet;
+  constructor(view: EditorView) { this.decorations = coloursOf(view); }
+  update(update: ViewUpdate): void {
+    if (update.docChanged || update.viewportChanged || syntaxTree(update.startState) !== syntaxTree(update.state)) this.decorations = coloursOf(update.view);
+  }
+}, {decorations: plugin => plugin.decorations});
 
-export function packSupport(): LanguageSupport {
-  return new LanguageSupport(packLanguage);
+export function packSupport(): Extension {
+  return [new LanguageSupport(yamlLanguage), colouring];
 }

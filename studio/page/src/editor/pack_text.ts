@@ -1,24 +1,17 @@
-// Where the params of a pack stand in its text, so that a slider edits the text like a hand would: only the value changes.
+// Where the params of a pack stand in its text, so that a slider edits the text as a hand would: only the value changes.
+import {yamlLanguage} from '@codemirror/lang-yaml';
+import type {SyntaxNode} from '@lezer/common';
 
-import type {SyntaxNode, Tree} from '@lezer/common';
+import {keyOf} from './pack_language';
 
-import {keyOf, packLanguage} from './pack_language';
+export interface TextChange { from: number; to: number; insert: string }
 
-export interface TextRange {
-  from: number;
-  to: number;
-}
+/** The section `params:` of a pack: only it is parsed, at every step of a slider. */
+interface Section { text: string; begin: number; params: SyntaxNode | null }
 
-export interface TextChange extends TextRange {
-  insert: string;
-}
-
-// A pair of the mapping `mapping` whose key is `key`.
 function pairIn(mapping: SyntaxNode | null, key: string, text: string): SyntaxNode | null {
-  for (const pair of mapping?.getChildren('Pair') ?? []) {
-    if (keyOf(pair, (from, to) => text.slice(from, to)) === key) return pair;
-  }
-  return null;
+  const pairs = mapping?.getChildren('Pair') ?? [];
+  return pairs.find(pair => keyOf(pair, (from, to) => text.slice(from, to)) === key) ?? null;
 }
 
 function valueOf(pair: SyntaxNode | null): SyntaxNode | null {
@@ -31,57 +24,56 @@ function mappingOf(pair: SyntaxNode | null): SyntaxNode | null {
   return value && /Mapping$/.test(value.name) ? value : null;
 }
 
-function topMapping(tree: Tree): SyntaxNode | null {
-  return tree.topNode.getChild('Document')?.getChild('BlockMapping') ?? null;
-}
-
-export function parsePack(text: string): Tree {
-  return packLanguage.parser.parse(text);
-}
-
-// Where the value of a param stands ("0.6 m" in `sill: {value: 0.6 m, …}`), or null if this text has none.
-export function paramValueRange(tree: Tree, text: string, name: string): TextRange | null {
-  const params = mappingOf(pairIn(topMapping(tree), 'params', text));
-  const value = valueOf(pairIn(mappingOf(pairIn(params, name, text)), 'value', text));
-  return value ? {from: value.from, to: value.to} : null;
-}
-
-function lineEnd(text: string, offset: number): number {
-  const end = text.indexOf('\n', offset);
-  return end < 0 ? text.length : end;
+function sectionOf(text: string): Section | null {
+  const begin = text.search(/^params\s*:/m);
+  if (begin < 0) return null;
+  const next = text.slice(begin + 1).search(/^[^\s#]/m);
+  const own = next < 0 ? text.slice(begin) : text.slice(begin, begin + 1 + next);
+  const top = yamlLanguage.parser.parse(own).topNode.getChild('Document')?.getChild('BlockMapping') ?? null;
+  return {text: own, begin, params: mappingOf(pairIn(top, 'params', own))};
 }
 
 function indentAt(text: string, offset: number): string {
   return text.slice(text.lastIndexOf('\n', offset - 1) + 1, offset);
 }
 
-// A pack that extends another gets a line of its own for a param of its base.
-function newParam(tree: Tree, text: string, name: string, value: string): TextChange {
-  const top = topMapping(tree);
-  const params = mappingOf(pairIn(top, 'params', text));
-  const first = params?.getChild('Pair') ?? null;
-  if (params?.name === 'FlowMapping') {
-    const at = params.from + 1;
-    return {from: at, to: at, insert: `${name}: {value: ${value}}${first ? ', ' : ''}`};
-  }
-  if (params && first) {
-    const indent = indentAt(text, first.from);
-    return {from: first.from, to: first.from, insert: `${name}: {value: ${value}}\n${indent}`};
-  }
-  const before = pairIn(top, 'params', text) ?? pairIn(top, 'extends', text) ?? pairIn(top, 'pack', text);
-  const at = before ? lineEnd(text, before.to) : text.length;
-  const head = pairIn(top, 'params', text) ? '' : '\nparams:';
-  return {from: at, to: at, insert: `${head}\n  ${name}: {value: ${value}}`};
+function insertAt(offset: number, insert: string): TextChange { return {from: offset, to: offset, insert}; }
+
+function endOfLine(text: string, offset: number): number {
+  const end = text.indexOf('\n', offset);
+  return end < 0 ? text.length : end;
 }
 
-// The change that gives a param another value: of its value where the text has one, else a new entry.
-export function changeOfParam(tree: Tree, text: string, name: string, value: string): TextChange {
-  const range = paramValueRange(tree, text, name);
-  if (range) return {...range, insert: value};
-  const params = mappingOf(pairIn(topMapping(tree), 'params', text));
-  const own = mappingOf(pairIn(params, name, text));
+/** A new entry of the section, first in it. */
+function newEntry(section: Section, name: string, value: string): TextChange {
+  const {text, begin, params} = section;
+  const first = params?.getChild('Pair') ?? null;
+  if (params?.name === 'FlowMapping') return insertAt(begin + params.from + 1, `${name}: {value: ${value}}${first ? ', ' : ''}`);
+  if (first) return insertAt(begin + first.from, `${name}: {value: ${value}}\n${indentAt(text, first.from)}`);
+  return insertAt(begin + endOfLine(text, 0), `\n  ${name}: {value: ${value}}`);
+}
+
+/** A pack without params gets the section, after the lines that say which pack it is. */
+function newSection(text: string, name: string, value: string): TextChange {
+  const heads = [...text.matchAll(/^(?:schema|pack|extends)\s*:.*$/gm)];
+  const last = heads[heads.length - 1];
+  const at = last ? last.index + last[0].length : 0;
+  const section = `params:\n  ${name}: {value: ${value}}`;
+  return insertAt(at, last ? `\n${section}` : `${section}\n`);
+}
+
+/**
+ * The change that gives a param another value. It replaces the value where this text has one; a pack that extends another gets an
+ * entry of its own for a param of its base.
+ */
+export function changeOfParam(text: string, name: string, value: string): TextChange {
+  const section = sectionOf(text);
+  if (!section) return newSection(text, name, value);
+  const own = mappingOf(pairIn(section.params, name, section.text));
+  const old = valueOf(pairIn(own, 'value', section.text));
+  if (old) return {from: section.begin + old.from, to: section.begin + old.to, insert: value};
   const first = own?.getChild('Pair');
-  if (!own || !first) return newParam(tree, text, name, value);
-  const separator = own.name === 'FlowMapping' ? ', ' : `\n${indentAt(text, first.from)}`;
-  return {from: first.from, to: first.from, insert: `value: ${value}${separator}`};
+  if (!own || !first) return newEntry(section, name, value);
+  const separator = own.name === 'FlowMapping' ? ', ' : `\n${indentAt(section.text, first.from)}`;
+  return insertAt(section.begin + first.from, `value: ${value}${separator}`);
 }
