@@ -195,7 +195,7 @@ export const words = {
     outdated: 'The pack has changed since the search began. Learn again.'
   },
   scale: {
-    title: 'Scale', slider: 'Scale of the map', lods: 'Levels of detail', original: 'As it is', beside: 'Beside the original',
+    title: 'Scale', slider: 'Scale of the map', lods: 'Levels of detail', original: 'As it is', generalised: 'Generalised', beside: 'Beside the original',
     hint: 'Move the slider to see the building as a map of that scale has it, by the entries of generalise: in the pack.',
     polygons: (before: number, after: number) => `${before.toLocaleString('en')} → ${count(after, 'polygon', 'polygons')}`,
     valid: 'A valid solid.', invalid: 'Not a valid solid.', kept: 'kept', nothing: 'Nothing had to be done.'

@@ -22,6 +22,7 @@ class ScalePanel {
   private readonly outcomes = el('div', {class: 'scale-outcomes'});
   private readonly beside = el('input', {type: 'checkbox', checked: true});
   private divider: Divider | null = null;
+  private share = 0.5;
   private stops: Stop[] = [];
   private stop: Stop = {kind: 'scale', scale: 1};
   private building = 0;
@@ -83,7 +84,7 @@ class ScalePanel {
 
   private showOriginal(): void {
     ++this.asked;
-    if (this.divider) this.divider.isShown = false;
+    this.divider?.hide();
     this.say(null);
     replace(this.facts);
     replace(this.outcomes);
@@ -111,7 +112,7 @@ class ScalePanel {
 
   private draw(answer: ScaleAnswer): void {
     const {geometry} = this.app.store.value;
-    this.divider ??= new Divider(this.app);
+    this.divider ??= new Divider(this.app, words.scale.original, words.scale.generalised);
     this.divider.show([{
       number: this.building, vertices_mm: answer.vertices_mm, storeys_mm: geometry.get(this.building)?.storeys_mm ?? [],
       polygons: answer.polygons.map(polygon => ({rings: polygon.rings, owners: polygon.feature < 0 ? [] : [polygon.feature], surface: polygon.surface}))
@@ -121,10 +122,15 @@ class ScalePanel {
     this.listOutcomes(answer);
   }
 
+  /** Beside the original the line stands where the reader has left it, in its place at the left edge. */
   private placeDivider(): void {
-    if (!this.divider || isOriginal(this.stop)) return;
-    this.divider.isShown = true;
-    this.divider.place = this.beside.checked ? Math.max(0.05, this.divider.place) : 0;
+    if (!this.divider?.isShown) return;
+    if (!this.beside.checked) {
+      if (this.divider.place > 0) this.share = this.divider.place;
+      this.divider.place = 0;
+    } else if (this.divider.place === 0) {
+      this.divider.place = this.share;
+    }
   }
 
   private say(answer: ScaleAnswer | null): void {
