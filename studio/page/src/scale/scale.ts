@@ -67,8 +67,13 @@ class ScalePanel {
   private choose(stop: Stop): void {
     this.stop = stop;
     this.mark();
-    if (isOriginal(stop)) this.showOriginal();
-    else this.askSoon();
+    if (isOriginal(stop)) {
+      this.showOriginal();
+      return;
+    }
+    // The first time the building comes into the middle, where the line is.
+    if (!this.divider?.isShown) this.app.scene.fly({building: this.building});
+    this.askSoon();
   }
 
   private mark(): void {

@@ -11,7 +11,7 @@ function classTable(score: Score): HTMLElement {
   const row = (entry: ClassScore) => el('tr', {}, el('th', {scope: 'row'}, entry.name),
     ...[percent(entry.precision), percent(entry.recall), entry.f1.toFixed(3)].map(text => el('td', {class: 'number'}, text)),
     el('td', {class: 'number quiet'}, words.truth.foundOf(entry.found, entry.found + entry.missed)));
-  return el('table', {class: 'facts'},
+  return el('table', {class: 'score-table'},
     el('thead', {}, el('tr', {}, ...words.truth.classColumns.map(name => el('th', {scope: 'col'}, name)))),
     el('tbody', {}, ...score.classes.map(row)));
 }
@@ -29,7 +29,7 @@ function ruleRow(app: App, rule: RuleScore): HTMLElement {
 function ruleTable(app: App, score: Score): HTMLElement {
   const rules = score.rules.filter(rule => rule.right + rule.wrong > 0)
     .sort((a, b) => b.wrong - a.wrong || b.right - a.right || (a.rule < b.rule ? -1 : 1));
-  return el('table', {class: 'facts'},
+  return el('table', {class: 'score-table'},
     el('thead', {}, el('tr', {}, ...words.truth.ruleColumns.map(name => el('th', {scope: 'col'}, name)))),
     el('tbody', {}, ...rules.map(rule => ruleRow(app, rule))));
 }
