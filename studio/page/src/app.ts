@@ -1,7 +1,7 @@
 // What every panel is given, and what a panel is.
 import type {PackRunner} from './pack_runner';
 import type {BuildingScene} from './scene/building_scene';
-import type {Part, Source} from './source';
+import type {ExplainAnswer, Part, Source} from './source';
 import type {Selection, Store} from './store';
 
 export interface Panel {
@@ -33,4 +33,6 @@ export interface App {
   openLine(line: number): void;
   /** The editor says here how that is done. */
   onOpenLine(call: (line: number) => void): void;
+  /** What an author can do about an explained part: correct it, set the param that would flip it. Only the studio has it. */
+  partTools?: (part: Part, answer: ExplainAnswer) => HTMLElement;
 }

@@ -8,6 +8,7 @@ import {paramsPanel} from './params/params';
 import {outlinePanel} from './outline/outline';
 import {changesPanel} from './changes/changes';
 import {bindCorrections} from './truth/correct_menu';
+import {partTools} from './truth/part_tools';
 import {samplesPanel} from './truth/samples';
 import {truthPanel} from './truth/truth';
 import {scalePanel} from './scale/scale';
@@ -17,4 +18,7 @@ const workbench = new Workbench(new ServerSource(token), new Store(), words.shel
 workbench.addLeft(editorPanel, paramsPanel, outlinePanel);
 workbench.addRight(changesPanel, truthPanel, samplesPanel, scalePanel);
 bindCorrections(workbench);
+workbench.partTools = (part, answer) => partTools(workbench, part, answer);
+// For scripts that drive the page, as the browser tests do.
+Object.assign(window, {oriel: workbench});
 void workbench.start();

@@ -75,6 +75,8 @@ export const kInitial: Values = {
   is_dark: false, message: '', is_message_grave: false
 };
 
+const kMessageMs = 8000;
+
 type Watcher = {keys: ReadonlySet<keyof Values>; call: () => void};
 
 export class Store {
@@ -100,8 +102,11 @@ export class Store {
     return () => { this.watchers.splice(this.watchers.indexOf(watcher), 1); };
   }
 
-  /** Tells the reader something; a grave message stays until the next one. */
-  say(message: string, isGrave = false): void { this.set({message, is_message_grave: isGrave}); }
+  /** Tells the reader something; a grave message stays until the next one, any other for a while. */
+  say(message: string, isGrave = false): void {
+    this.set({message, is_message_grave: isGrave});
+    if (!isGrave && message !== '') setTimeout(() => { if (this.value.message === message) this.set({message: ''}); }, kMessageMs);
+  }
 
   private tell(): void {
     const keys = this.changedKeys;

@@ -172,7 +172,7 @@ export const words = {
     wrong: (n: number) => `${count(n, 'part', 'parts')} with a wrong label`
   },
   correct: {
-    title: 'Correct the label', label: 'What it is', why: 'Why (if you like)', noClass: 'none of them', withdraw: 'Withdraw the correction',
+    title: 'Correct the label', hint: 'Say what it is (C)', setParam: (name: string, value: string) => `Set ${name} to ${value}`, label: 'What it is', why: 'Why (if you like)', noClass: 'none of them', withdraw: 'Withdraw the correction',
     of: (name: string, label: string) => `${name} is called ${label}. It is`,
     done: (name: string) => `Corrected to ${name}.`, withdrawn: 'The correction is withdrawn.', failed: 'The correction was not written.'
   },

@@ -24,6 +24,7 @@ export class Workbench implements App {
   readonly shell: Shell;
   readonly scene: BuildingScene;
   readonly packs: PackRunner;
+  partTools?: App['partTools'] & {};
   private lineOpener: ((line: number) => void) | null = null;
   private readonly asked = new Set<number>();
 

@@ -88,6 +88,7 @@ function featureContent(app: App, [building, feature]: Part, answer: ExplainAnsw
     about ? el('p', {class: 'quiet small', id: 'name'}, about.name) : null,
     answer.correction ? el('p', {class: 'note'}, words.explain.corrected(answer.correction.class)) : null,
     answer.flip ? el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line)) : null,
+    app.partTools?.([building, feature], answer) ?? null,
     section(words.explain.why, 'why', answer.why.filter(isReason).map(rule => ruleElement(app, rule, rule.rule === answer.rule)), words.explain.noRule),
     section(words.explain.whyNot, 'whynot', [...answer.why_not.map(miss => missElement(app, miss)), othersElement(app, answer.why.filter(rule => !isReason(rule)))]),
     section(words.explain.relations, 'relations', answer.relations.filter(r => r.features.length > 0).map(r => relationElement(app, building, r))),
