@@ -156,7 +156,7 @@ class WorkerFaults {
   bool are_too_many() {
     times_.push_back(Clock::now());
     if (times_.size() > kMostFaults) times_.pop_front();
-    return times_.size() < kMostFaults || times_.back() - times_.front() > kShortWhile;
+    return times_.size() == kMostFaults && times_.back() - times_.front() < kShortWhile;
   }
 
   SharedWork* work_;
