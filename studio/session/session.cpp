@@ -1,31 +1,75 @@
 #include "studio/session/session.h"
 
+#include "studio/session/desk.h"
+
+#include <map>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace oriel::studio {
 
+namespace {
+
+using Verb = StudioJson (*)(Desk&, const RequestBody&);
+
+const std::map<std::string_view, Verb>& verbs() {
+  static const std::map<std::string_view, Verb> all{
+      {"disk", [](Desk& desk, const RequestBody&) { return desk.file.disk(); }},
+      {"explain", answer_explain},
+      {"geometry", answer_geometry},
+      {"pack", [](Desk& desk, const RequestBody& body) { return desk.runner.run(body); }},
+      {"save", [](Desk& desk, const RequestBody& body) { return desk.file.save(body); }},
+      {"state", answer_state},
+      {"surfaces", answer_surfaces},
+  };
+  return all;
+}
+
+Reply reply_of(const RefusedRequest& refused) {
+  StudioJson json{{"error", refused.what()}};
+  if (refused.code() != Code::none) json["code"] = to_string(refused.code());
+  for (const auto& [key, value] : refused.members().items()) json[key] = value;
+  return {refused.status(), dump(json)};
+}
+
+Reply fault_reply(const std::exception& fault) {
+  return error_reply(500, fmt::format("a fault of oriel's own: {}", fault.what()),
+                     to_string(Code::E901));
+}
+
+}  // namespace
+
 Reply error_reply(int status, std::string_view sentence, std::string_view code) {
-  nlohmann::ordered_json json{{"error", sentence}};
+  StudioJson json{{"error", sentence}};
   if (!code.empty()) json["code"] = code;
-  return {status, json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)};
+  return {status, dump(json)};
 }
 
 struct Session::Inside {
-  SessionOptions options;
+  explicit Inside(SessionOptions options) : desk(std::move(options)) {}
+  Desk desk;
 };
 
-Session::Session(SessionOptions options)
-    : inside_(std::make_unique<Inside>(Inside{std::move(options)})) {}
+Session::Session(SessionOptions options) : inside_(std::make_unique<Inside>(std::move(options))) {}
 
 Session::~Session() = default;
 
 Reply Session::answer(std::string_view verb, std::string_view body) {
-  if (!nlohmann::json::parse(body, nullptr, false).is_object())
-    return error_reply(400, "the body of a request is a JSON object");
-  return error_reply(404, fmt::format("there is no verb '{}'", verb));
+  const auto found = verbs().find(verb);
+  if (found == verbs().end()) return error_reply(404, fmt::format("there is no verb '{}'", verb));
+  try {
+    return {200, dump(found->second(inside_->desk, RequestBody(body)))};
+  } catch (const RefusedRequest& refused) {
+    return reply_of(refused);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const InputError& fault) {
+    return error_reply(400, fault.issue().sentence, to_string(fault.issue().code));
+  } catch (const std::exception& fault) {
+    return fault_reply(fault);
+  }
 }
 
 }  // namespace oriel::studio

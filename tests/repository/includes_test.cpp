@@ -43,6 +43,22 @@ const std::map<std::string, std::string> kAllowed{
     {"studio/server/serve.h", "the studio"},
 };
 
+/// What the sessions of the studio include besides the front door, and why.
+const std::map<std::string, std::string> kAllowedInStudio{
+    {"interpret/experiment/parallel.h", "shares of the work"},
+    {"kernel/base/code.h", "codes of refusals"},
+    {"kernel/base/ids.h", "numbers of features"},
+    {"kernel/base/issue.h", "what is reported, with its code"},
+    {"kernel/base/sha256.h", "whether a file is still the one that was opened"},
+    {"kernel/io/document.h", "the records that the library reads"},
+    {"kernel/io/files/output_file.h", "packs and corrections appear when they are whole"},
+    {"kernel/model/building.h", "a value"},
+    {"kernel/model/description/attributes.h", "attributes are listed with unit and meaning"},
+    {"kernel/model/polygon_owners.h", "which features a polygon lies in"},
+    {"kernel/model/segmentation.h", "a value"},
+    {"kernel/model/version.h", "the version in `state`"},
+};
+
 /// What a file includes, between quotes or angles.
 std::set<std::string> includes_of(const fs::path& path) {
   std::set<std::string> included;
@@ -92,6 +108,17 @@ TEST_SUITE("repository") {
     for (const auto& [header, why] : kAllowed)
       CHECK_MESSAGE(others.contains(header), "nothing includes ", header, " any more");
     CHECK(included.size() > kAllowed.size());
+  }
+
+  TEST_CASE("the sessions of the studio call the front door and no stage") {
+    const auto included = included_by(fs::path(ORIEL_SOURCE_DIR) / "studio/session");
+    CHECK(included.size() > kAllowedInStudio.size());
+    for (const auto& [header, file] : included)
+      CHECK_MESSAGE((header.starts_with("studio/") || is_of_the_door(header) ||
+                     kAllowedInStudio.contains(header)),
+                    file, " includes ", header);
+    for (const auto& [header, why] : kAllowedInStudio)
+      CHECK_MESSAGE(included.contains(header), "nothing includes ", header, " any more");
   }
 
   TEST_CASE("the Python module calls the front door only") {

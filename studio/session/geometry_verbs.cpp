@@ -1,0 +1,212 @@
+#include "kernel/model/version.h"
+#include "oriel/explain.h"
+#include "oriel/generalise.h"
+#include "studio/session/desk.h"
+#include "studio/session/pack_answer.h"
+#include "studio/session/plain_sentence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace oriel::studio {
+
+namespace {
+
+/// A picture needs no more than millimetres.
+constexpr double kMillimetres = 1000;
+
+/// What the slider of scales stops at: denominators.
+constexpr int kScales[] = {1, 500, 1000, 2500, 5000, 10000, 25000};
+
+StudioJson point_json(const Vec3& p) {
+  return StudioJson::array({rounded(p.x, 3), rounded(p.y, 3), rounded(p.z, 3)});
+}
+
+StudioJson box_mm_json(const Box& box, const Vec3& origin_m) {
+  StudioJson list = StudioJson::array();
+  for (const Vec3& corner : {box.min - origin_m, box.max - origin_m})
+    for (const double metres : {corner.x, corner.y, corner.z})
+      list.push_back(std::llround(kMillimetres * metres));
+  return list;
+}
+
+Box box_of(const Building& building) {
+  Box box;
+  for (const Vec3& vertex : building.vertices) box.grow(vertex + building.frame.origin_m);
+  return box;
+}
+
+/// The levels of detail that the profile "lod" has, from fine to coarse.
+const std::vector<std::string>& levels_of_detail() {
+  static const std::vector<std::string> levels = [] {
+    std::vector<std::string> known;
+    for (int whole = 3; whole >= 0; --whole)
+      for (int tenth = 9; tenth >= 0; --tenth) {
+        std::string level = fmt::format("{}.{}", whole, tenth);
+        if (load_profile_file("lod:" + level).value) known.push_back(std::move(level));
+      }
+    return known;
+  }();
+  return levels;
+}
+
+StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
+                          const Vec3& origin_m) {
+  const Box box = box_of(*read.building);
+  const bool is_flat = box.is_empty();
+  StudioJson entry{{"id", read.building->id},
+                   {"file", read.file},
+                   {"is_loaded", open != nullptr},
+                   {"features", open != nullptr ? open->features.size() : 0},
+                   {"at_m", point_json(is_flat ? Vec3{} : box.min - origin_m)},
+                   {"size_m", point_json(is_flat ? Vec3{} : box.max - box.min)},
+                   {"issues", StudioJson::array()},
+                   {"is_open", open != nullptr && open->segmented.is_open}};
+  if (open != nullptr)
+    for (const Issue& issue : open->segmented.issues)
+      if (issue.severity != Severity::note) entry["issues"].push_back(issue_json(issue));
+  return entry;
+}
+
+StudioJson polygons_json(const OpenBuilding& open) {
+  StudioJson list = StudioJson::array();
+  for (const Polygon& polygon : open.building->polygons)
+    list.push_back({{"source", polygon.source},
+                    {"rings", polygon.rings},
+                    {"owners", open.owners[static_cast<std::size_t>(polygon.source)]}});
+  return list;
+}
+
+StudioJson vertices_json(const Building& building, const Vec3& origin_m) {
+  StudioJson list = StudioJson::array();
+  for (const Vec3& vertex : building.vertices) {
+    const Vec3 p = vertex + (building.frame.origin_m - origin_m);
+    for (const double metres : {p.x, p.y, p.z}) list.push_back(std::llround(kMillimetres * metres));
+  }
+  return list;
+}
+
+StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* labelled,
+                         const Vec3& origin_m) {
+  StudioJson list = StudioJson::array();
+  const PipelineResult& result = open.segmented;
+  if (!result.is_done()) return list;
+  const auto names = feature_names(*result.segmentation, result.description.table,
+                                   labelled != nullptr ? &labelled->interpretation : nullptr);
+  for (std::size_t i = 0; i < open.features.size(); ++i) {
+    const Feature& feature = result.segmentation->features[i];
+    list.push_back({{"id", open.features[i].id},
+                    {"name", names[i]},
+                    {"kind", kind_word(feature.sense)},
+                    {"parent", feature.parent.value},
+                    {"box_mm", box_mm_json(open.features[i].box, origin_m)}});
+  }
+  return list;
+}
+
+/// Where storeys begin: the foot of the building, then half-way between the openings of a storey
+/// and those of the next one. Nothing for a building without storeys.
+StudioJson storeys_json(const OpenBuilding& open, const Vec3& origin_m) {
+  struct Reach {
+    double low = Box::kInfinity, high = -Box::kInfinity;
+  };
+  std::map<double, Reach> storeys;
+  const FeatureTable& table = open.segmented.description.table;
+  for (std::size_t i = 0; i < open.features.size(); ++i) {
+    const auto storey = table.number(FeatureId{static_cast<int>(i)}, Attribute::storey);
+    if (!storey) continue;
+    Reach& reach = storeys[*storey];
+    reach.low = std::min(reach.low, open.features[i].box.min.z);
+    reach.high = std::max(reach.high, open.features[i].box.max.z);
+  }
+  StudioJson list = StudioJson::array();
+  double top = box_of(*open.building).min.z;
+  for (const auto& [number, reach] : storeys) {
+    const double begin = list.empty() ? top : (top + reach.low) / 2;
+    list.push_back(std::llround(kMillimetres * (begin - origin_m.z)));
+    top = reach.high;
+  }
+  return list;
+}
+
+}  // namespace
+
+StudioJson answer_state(Desk& desk, const RequestBody& /*body*/) {
+  const LoadingState loading = desk.buildings.loading();
+  const auto read = desk.buildings.read();
+  const BuildingList list = desk.buildings.list();
+  const Vec3 origin_m = desk.buildings.origin_m();
+  StudioJson buildings = StudioJson::array();
+  for (std::size_t i = 0; i < read.size(); ++i)
+    buildings.push_back(
+        building_entry(read[i], i < list.size() ? list[i].get() : nullptr, origin_m));
+  std::vector<Issue> issues = desk.buildings.issues();
+  issues.insert(issues.end(), desk.corrections.issues().begin(), desk.corrections.issues().end());
+  return {{"program", fmt::format("oriel {}", kVersion)},
+          {"pack", desk.file.state()},
+          {"origin_m", point_json(origin_m)},
+          {"buildings", std::move(buildings)},
+          {"has_truth", desk.buildings.has_truth() || !desk.corrections.list().empty()},
+          {"corrections", desk.corrections.path()},
+          {"scales", kScales},
+          {"lods", levels_of_detail()},
+          {"issues", issues_json(issues)},
+          {"loading", {{"done", loading.done}, {"all", loading.all}}}};
+}
+
+StudioJson answer_geometry(Desk& desk, const RequestBody& body) {
+  const BuildingList list = desk.buildings.list();
+  const Vec3 origin_m = desk.buildings.origin_m();
+  const auto labelled = desk.runner.current();
+  StudioJson buildings = StudioJson::array();
+  for (const std::size_t number : body.numbers("buildings", list.size(), "building")) {
+    if (!list[number]) continue;
+    const OpenBuilding& open = *list[number];
+    const LabelledFeatures* features = labelled && number < labelled->buildings.size()
+                                           ? labelled->buildings[number].get()
+                                           : nullptr;
+    buildings.push_back({{"number", number},
+                         {"id", open.building->id},
+                         {"vertices_mm", vertices_json(*open.building, origin_m)},
+                         {"polygons", polygons_json(open)},
+                         {"features", features_json(open, features, origin_m)},
+                         {"storeys_mm", storeys_json(open, origin_m)}});
+  }
+  return {{"buildings", std::move(buildings)}};
+}
+
+AskedBuilding asked_building(Desk& desk, const RequestBody& body) {
+  const BuildingList list = desk.buildings.list();
+  AskedBuilding asked;
+  asked.number = body.number("building", list.size(), "building");
+  if (!list[asked.number]) throw RefusedRequest(409, "the building is not loaded yet");
+  asked.all = desk.runner.need_current();
+  asked.labelled = asked.all->buildings.at(asked.number);
+  return asked;
+}
+
+FeatureId asked_feature(const RequestBody& body, const OpenBuilding& building) {
+  return FeatureId{static_cast<int>(body.number("feature", building.features.size(), "feature"))};
+}
+
+StudioJson answer_surfaces(Desk& desk, const RequestBody& body) {
+  const AskedBuilding asked = asked_building(desk, body);
+  const OpenBuilding& open = *asked.labelled->building;
+  LabelOptions options = desk.options.label;
+  options.corrections = nullptr;
+  options.has_output = false;
+  options.measures_surfaces = true;
+  const PipelineResult result = label(*open.building, open.segmented, asked.all->rules, options);
+  StudioJson types = StudioJson::array(), why = StudioJson::array();
+  for (const SurfaceExplanation& surface :
+       explain_surfaces(*open.building, result, asked.all->rules)) {
+    types.push_back(surface.type);
+    why.push_back(surface.reason);
+  }
+  return {{"types", std::move(types)}, {"why", std::move(why)}};
+}
+
+}  // namespace oriel::studio

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "kernel/base/ids.h"
+#include "kernel/model/segmentation.h"
+#include "studio/session/labelled_buildings.h"
+
+#include <string>
+#include <string_view>
+
+namespace oriel::studio {
+
+/// What a feature is to the building, in a word: "protrusion", "hole", "cavity", and "panel" of an
+/// imprint, a flat outline.
+std::string_view kind_word(Sense sense);
+
+/// A feature in one plain sentence, from its attributes: "window: a 1.1 × 1.4 m hole in a wall,
+/// 0.9 m above the ground, one of a row of four". What is not known is left out.
+std::string plain_sentence(const LabelledFeatures& labelled, FeatureId feature);
+
+}  // namespace oriel::studio
