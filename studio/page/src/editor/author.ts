@@ -31,6 +31,7 @@ export class Author {
   begin(text: string, hash: string, extensions: Extension): void {
     this.savedText = text;
     this.savedHash = hash;
+    this.loop.adopt(text);
     const told = EditorView.updateListener.of(update => {
       if (!update.docChanged) return;
       this.loop.change(update.state.doc.toString(), this.param !== null);

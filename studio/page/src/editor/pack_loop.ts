@@ -9,22 +9,23 @@ const kTypingPause_ms = 25;
 const kRetry_ms = 1000;
 
 export class PackLoop {
-  private text: string;
+  private text = '';
   private needsAll = false;
   private isAsking = false;
   private isWaiting = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private readonly listeners: (() => void)[] = [];
 
-  constructor(private readonly app: App) {
-    this.text = app.store.value.text;
-  }
+  constructor(private readonly app: App) {}
 
   /** Whether the store holds the answer to the text as it stands. */
   get isCurrent(): boolean { return !this.isWaiting && !this.isAsking; }
 
   /** Calls `call` after every answer to the newest text. */
   onAnswer(call: () => void): void { this.listeners.push(call); }
+
+  /** The text that the page has asked about already. */
+  adopt(text: string): void { this.text = text; }
 
   /** The text has changed. `atOnce` leaves out the pause for typing. */
   change(text: string, atOnce = false): void {

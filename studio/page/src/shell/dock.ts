@@ -46,6 +46,7 @@ export class Dock {
       const tab = this.tabs.querySelector<HTMLElement>(`#tab-${panel.id}`);
       tab?.setAttribute('aria-selected', String(panel.id === id));
       if (tab) tab.tabIndex = panel.id === id ? 0 : -1;
+      if (panel.id === id) tab?.scrollIntoView({block: 'nearest', inline: 'nearest'});
     }
     if (isNew) this.panels.find(panel => panel.id === id)?.onShow?.();
   }

@@ -61,7 +61,9 @@ class Menu {
 
   private fill(): void {
     const text = this.input.value.trim().toLowerCase();
-    this.shown = this.choices.filter(choice => choice.name.toLowerCase().includes(text));
+    const rank = (choice: Choice) => choice.name.toLowerCase().indexOf(text);
+    this.shown = this.choices.filter(choice => rank(choice) >= 0);
+    if (text !== '') this.shown.sort((a, b) => Math.min(rank(a), 1) - Math.min(rank(b), 1));
     this.at = 0;
     replace(this.list, ...this.shown.map((choice, at) => el('li', {
       role: 'option', id: `correct-${at}`, class: choice.given === null || choice.given === 'unknown' ? 'is-special' : '', onclick: () => this.choose(choice)
