@@ -319,11 +319,12 @@ Checked<RuleBase> load(const std::optional<rules::FoundPack>& found, const std::
                           "there is no pack here that can be read" + suggest_embedded(path));
 }
 
-/// What `write` makes of a pack that can be loaded and of its text without a byte order mark.
-/// Findings are those of loading it and of `write`; with an error among them there is no text.
+/// What `write` makes of the pack, which load(`found`, `path`) must be able to load, and of its
+/// text without a byte order mark. Findings are those of loading it and of `write`; with an error
+/// among them there is no text.
 template <class Write>
-Checked<std::string> write_pack(const std::string& path, const Write& write) {
-  auto found = find_pack(path);
+Checked<std::string> write_pack(std::optional<rules::FoundPack> found, const std::string& path,
+                                const Write& write) {
   auto loaded = load(found, path);
   Checked<std::string> result{std::nullopt, std::move(loaded.issues)};
   if (!loaded.value) return result;
@@ -401,23 +402,39 @@ Checked<RuleBase> load_pack_text(std::string text, const std::string& path) {
   });
 }
 
+namespace {
+
+Checked<std::string> format_found(std::optional<rules::FoundPack> found, const std::string& path) {
+  return write_pack(std::move(found), path,
+                    [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
+                      const auto tree = rules::parse_yaml({0, source.text().size()}, findings);
+                      return certain(tree.value(), rules::to_yaml(tree.value(), source.text()),
+                                     path);
+                    });
+}
+
+}  // namespace
+
 Checked<std::string> format_pack_file(const std::string& path) {
-  return write_pack(path, [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
-    const auto tree = rules::parse_yaml({0, source.text().size()}, findings);
-    return certain(tree.value(), rules::to_yaml(tree.value(), source.text()), path);
-  });
+  return format_found(find_pack(path), path);
+}
+
+Checked<std::string> format_pack(std::string text, const std::string& path) {
+  return format_found(rules::FoundPack{path, std::move(text)}, path);
 }
 
 Checked<std::string> merge_pack_file(const std::string& path) {
-  return write_pack(path, [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
-    const auto tree = rules::read_tree(source, rules::finder_for(path), findings);
-    return certain(tree.value(), rules::to_yaml(tree.value()), path);
-  });
+  return write_pack(find_pack(path), path,
+                    [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
+                      const auto tree = rules::read_tree(source, rules::finder_for(path), findings);
+                      return certain(tree.value(), rules::to_yaml(tree.value()), path);
+                    });
 }
 
 Checked<std::string> describe_pack_file(const std::string& path) {
   return write_pack(
-      path, [&](const RuleBase& base, rules::Source& source, rules::Findings& findings) {
+      find_pack(path), path,
+      [&](const RuleBase& base, rules::Source& source, rules::Findings& findings) {
         const auto tree = rules::read_tree(source, rules::finder_for(path), findings);
         return Checked<std::string>{rules::pack_page(tree.value(), base.pack(), findings), {}};
       });

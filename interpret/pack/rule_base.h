@@ -72,6 +72,8 @@ Checked<RuleBase> load_pack_text(std::string text, const std::string& path);
 /// the same, and in the same form. Findings are those of loading it; with an error among them there
 /// is no text.
 Checked<std::string> format_pack_file(const std::string& path);
+/// The same of `text`, which is to be the file at `path`.
+Checked<std::string> format_pack(std::string text, const std::string& path);
 
 /// The same pack with those that it extends put into one, without comments: what comes of
 /// overriding and removing.

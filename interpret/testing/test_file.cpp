@@ -261,11 +261,18 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
     issues.push_back(std::move(issue));
     return std::nullopt;
   }
+  ReadTests read = read_tests_text(std::move(*text), path);
+  issues = std::move(read.issues);
+  return std::move(read.file);
+}
+
+ReadTests read_tests_text(std::string text, const std::string& path) {
   // A pack of nothing but params: values of fixtures may name those of the tested pack.
-  Pack scratch(Source(path, std::move(*text)));
+  Pack scratch(Source(path, std::move(text)));
   Findings findings(scratch.source);
   std::vector<Issue> of_pack;
-  TestFile file;
+  ReadTests read;
+  TestFile& file = read.file.emplace();
   const std::size_t bad = find_bad_byte(scratch.source.text());
   if (bad != std::string_view::npos) {
     findings.error(Code::R200, {bad, bad}, "this is not UTF-8 text");
@@ -281,12 +288,13 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
       file.tests = TestReader(file.base->pack(), loader).run(top);
     }
   }
-  issues = findings.issues();
+  read.issues = findings.issues();
+  read.findings = findings.spanned();
   // Its notes are of files that no test writes.
-  std::ranges::copy_if(of_pack, std::back_inserter(issues),
+  std::ranges::copy_if(of_pack, std::back_inserter(read.issues),
                        [](const Issue& issue) { return issue.severity != Severity::note; });
-  if (findings.has_errors() || !file.base) return std::nullopt;
-  return file;
+  if (findings.has_errors() || !file.base) read.file.reset();
+  return read;
 }
 
 }  // namespace oriel::rules

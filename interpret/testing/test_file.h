@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/explain/explain.h"
+#include "interpret/language/findings.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/testing/fixture.h"
 
@@ -73,5 +74,17 @@ struct TestFile {
 
 /// The tests at `path` and the pack they are for; nothing if there are errors among `issues`.
 std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issue>& issues);
+
+/// What was read of the text of a file of tests.
+struct ReadTests {
+  std::optional<TestFile> file;  ///< nothing if there are errors
+  /// Those of the tests, then those of the pack that are no notes.
+  std::vector<Issue> issues;
+  /// Those of the tests with their spans in the text.
+  std::vector<SpannedFinding> findings;
+};
+
+/// The tests in `text`, which is to be the file at `path`.
+ReadTests read_tests_text(std::string text, const std::string& path);
 
 }  // namespace oriel::rules

@@ -1,0 +1,263 @@
+#include "interpret/editing/edited_pack.h"
+
+#include "interpret/editing/layers.h"
+#include "interpret/editing/renaming.h"
+#include "interpret/editing/word_at.h"
+#include "interpret/pack/read_pack.h"
+#include "interpret/plan/profile.h"
+#include "interpret/testing/test_file.h"
+#include "interpret/yaml/yaml_tree.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+constexpr std::string_view kYamlExtension = ".yaml";
+constexpr std::string_view kTestExtension = ".test.yaml";
+
+/// What the keys that are not indented say.
+EditedPack::Kind kind_of_text(std::string_view text) {
+  for (std::size_t line = 0; line < text.size();) {
+    const std::size_t end = std::min(text.find('\n', line), text.size());
+    const std::string_view content = text.substr(line, end - line);
+    if (content.starts_with("tests_for:")) return EditedPack::Kind::tests;
+    if (content.starts_with("profile:") || content.starts_with("schema: oriel-profile/"))
+      return EditedPack::Kind::profile;
+    if (content.starts_with("experiment:") || content.starts_with("schema: oriel-experiment/"))
+      return EditedPack::Kind::other;
+    line = end + 1;
+  }
+  return EditedPack::Kind::pack;
+}
+
+std::string without_byte_order_mark(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
+/// The text at `path` as an editor has it, else as it is on disk.
+std::optional<std::string> text_at(const std::string& path, const OpenTexts& open) {
+  if (auto text = open ? open(path) : std::nullopt) return text;
+  return rules::read_file(path);
+}
+
+/// The file of an embedded pack is called NAME.yaml and has no folder.
+std::optional<std::string_view> embedded_text(const std::string& file) {
+  if (!file.ends_with(kYamlExtension)) return std::nullopt;
+  return embedded_pack(file.substr(0, file.size() - kYamlExtension.size()));
+}
+
+}  // namespace
+
+struct EditedPack::State {
+  State(std::string t, std::string f, OpenTexts o)
+      : text(without_byte_order_mark(std::move(t))),
+        file(std::move(f)),
+        open(std::move(o)),
+        places(text),
+        kind(kind_of_text(text)) {}
+
+  std::string text;
+  std::string file;
+  OpenTexts open;
+  TextPlaces places;
+  Kind kind;
+  std::optional<rules::PackLayers> layers;
+  std::optional<std::vector<TextFinding>> findings;
+  std::optional<RuleBase> base;
+
+  [[nodiscard]] rules::PackFinder finder() const {
+    return [find = rules::finder_for(file), open = open](const std::string& name) {
+      auto found = find(name);
+      if (found && open)
+        if (auto text_of_editor = open(found->file)) found->text = std::move(*text_of_editor);
+      return found;
+    };
+  }
+
+  const rules::PackLayers& read_layers() {
+    if (!layers) layers.emplace(text, file, finder());
+    return *layers;
+  }
+
+  void find() {
+    findings.emplace();
+    if (kind == Kind::pack) find_in_pack();
+    if (kind == Kind::tests)
+      for (const rules::SpannedFinding& found : rules::read_tests_text(text, file).findings)
+        add(found, text);
+    if (kind == Kind::profile)
+      for (const Issue& issue : load_profile(text, file, "").issues) add(issue);
+  }
+
+  void find_in_pack() {
+    rules::ReadPack read = rules::read_pack_text(text, file, finder());
+    for (const rules::SpannedFinding& found : read.findings)
+      if (read.pack->source.is_in_first(found.where.begin))
+        add(found, text);
+      else
+        add_beneath(found, read.pack->source);
+    if (read.is_good) base.emplace(std::move(read.pack));
+  }
+
+  /// The piece of text that `where` has, at least a character where there is one on the line.
+  [[nodiscard]] TextSpan shown(rules::SourceSpan where) const {
+    TextSpan span{std::min(where.begin, text.size()), std::min(where.end, text.size())};
+    span.end = std::max(span.begin, span.end);
+    if (span.begin == span.end && span.end < text.size() && text[span.end] != '\n') ++span.end;
+    while (span.end < text.size() && (static_cast<unsigned char>(text[span.end]) & 0xC0U) == 0x80U)
+      ++span.end;
+    return span;
+  }
+
+  void add(const rules::SpannedFinding& found, std::string_view of_text) {
+    findings->push_back({found.severity, found.code, found.sentence, shown(found.where),
+                         rules::fixes_of(of_text, found)});
+  }
+
+  void add_beneath(const rules::SpannedFinding& found, const rules::Source& source) {
+    const Place place = source.place(found.where.begin);
+    const TextSpan extends = span_of_extends();
+    findings->push_back(
+        {found.severity,
+         found.code,
+         fmt::format("in {}:{}:{}: {}", place.file, place.line, place.column, found.sentence),
+         extends,
+         {}});
+  }
+
+  TextSpan span_of_extends() {
+    const rules::YamlNode* name = rules::find_value(read_layers().top().tree, "extends");
+    return name == nullptr ? TextSpan{} : TextSpan{name->span.begin, name->span.end};
+  }
+
+  /// A finding of which only line and column are known: its span is the word there.
+  void add(const Issue& issue) {
+    rules::SpannedFinding found{{}, issue.severity, issue.code, issue.sentence};
+    const std::size_t carets = issue.excerpt.rfind('\n');
+    const std::string_view below =
+        carets == std::string::npos ? "" : std::string_view(issue.excerpt).substr(carets + 1);
+    const std::size_t width = below.size() - std::min(below.find('^'), below.size());
+    // Columns of issues count characters; of profiles, which are ASCII, that is the same.
+    found.where.begin =
+        places.offset({std::max(issue.place.line, 1), std::max(issue.place.column, 1)});
+    found.where.end = std::min(found.where.begin + width, text.size());
+    add(found, text);
+  }
+};
+
+EditedPack::EditedPack(std::string text, std::string file, OpenTexts open)
+    : state_(std::make_unique<State>(std::move(text), std::move(file), std::move(open))) {}
+EditedPack::~EditedPack() = default;
+EditedPack::EditedPack(EditedPack&&) noexcept = default;
+EditedPack& EditedPack::operator=(EditedPack&&) noexcept = default;
+
+const std::string& EditedPack::text() const { return state_->text; }
+const std::string& EditedPack::file() const { return state_->file; }
+const TextPlaces& EditedPack::places() const { return state_->places; }
+EditedPack::Kind EditedPack::kind() const { return state_->kind; }
+
+const std::vector<TextFinding>& EditedPack::findings() const {
+  if (!state_->findings) state_->find();
+  return *state_->findings;
+}
+
+std::optional<RuleBase> EditedPack::rules() const {
+  if (!state_->findings) state_->find();
+  return state_->base;
+}
+
+std::vector<Completion> EditedPack::complete(std::size_t offset) const {
+  const bool is_known = kind() == Kind::pack || kind() == Kind::tests;
+  if (!is_known) return {};
+  return rules::completions_at(state_->read_layers(), std::min(offset, text().size()));
+}
+
+std::optional<HoverText> EditedPack::hover(std::size_t offset) const {
+  const rules::PackLayers& layers = state_->read_layers();
+  if (const auto word = rules::word_at(layers, offset)) {
+    std::string said = rules::hover_text(layers, *word);
+    if (!said.empty()) return HoverText{std::move(said), {word->span.begin, word->span.end}};
+  }
+  if (kind() != Kind::pack) return std::nullopt;
+  auto key = rules::key_text(layers, offset);
+  if (!key) return std::nullopt;
+  return HoverText{std::move(key->text), {key->span.begin, key->span.end}};
+}
+
+std::optional<DefinitionPlace> EditedPack::definition(std::size_t offset) const {
+  const rules::PackLayers& layers = state_->read_layers();
+  const auto word = rules::word_at(layers, offset);
+  if (!word) return std::nullopt;
+  const rules::PackLayer* layer = nullptr;
+  TextSpan span;
+  if (const rules::DeclaredName* declared = rules::declaration_of(layers, *word)) {
+    layer = declared->layer;
+    span = {declared->span.begin, declared->span.end};
+  } else if (word->sort == rules::WordSort::pack && layers.all().size() > 1) {
+    layer = &layers.all()[1];
+  }
+  if (layer == nullptr) return std::nullopt;
+  DefinitionPlace place;
+  place.file = layer->source.file();
+  place.is_here = layer == &layers.top();
+  place.is_built_in = !place.is_here && embedded_text(place.file) == layer->source.text();
+  const TextPlaces places(layer->source.text());
+  place.begin = places.place(span.begin);
+  place.end = places.place(span.end);
+  return place;
+}
+
+std::vector<OutlineItem> EditedPack::outline() const {
+  return rules::outline_of(state_->read_layers());
+}
+
+std::optional<TextSpan> EditedPack::renameable(std::size_t offset) const {
+  const rules::PackLayers& layers = state_->read_layers();
+  const auto word = rules::word_at(layers, offset);
+  if (!word || !rules::refuse_renaming(layers, *word).empty()) return std::nullopt;
+  return TextSpan{word->span.begin, word->span.end};
+}
+
+Renaming EditedPack::rename(std::size_t offset, const std::string& name) const {
+  const rules::PackLayers& layers = state_->read_layers();
+  const auto word = rules::word_at(layers, offset);
+  if (!word) return {{}, "there is no name here that could be changed"};
+  std::string refusal = rules::refuse_renaming(layers, *word);
+  if (refusal.empty()) refusal = rules::refuse_name(layers, *word, name);
+  if (!refusal.empty()) return {{}, std::move(refusal)};
+  const rules::WordSort sort = rules::declared_sort(*word);
+  Renaming renaming;
+  const auto add = [&](const rules::PackLayers& of_file) {
+    const rules::Source& source = of_file.top().source;
+    FileEdits changes{source.file(), source.text(), {}};
+    for (const TextSpan where : rules::places_of(of_file, sort, word->name))
+      changes.edits.push_back({where, name});
+    if (!changes.edits.empty()) renaming.files.push_back(std::move(changes));
+  };
+  add(layers);
+  if (kind() != Kind::pack || !file().ends_with(kYamlExtension)) return renaming;
+  const std::string tests =
+      file().substr(0, file().size() - kYamlExtension.size()) + std::string(kTestExtension);
+  auto text_of_tests = text_at(tests, state_->open);
+  if (!text_of_tests) return renaming;
+  const rules::PackLayers of_tests(without_byte_order_mark(std::move(*text_of_tests)), tests,
+                                   [&](const std::string&) {
+                                     return rules::FoundPack{file(), text()};
+                                   });
+  add(of_tests);
+  return renaming;
+}
+
+Checked<std::string> EditedPack::format() const {
+  if (kind() != Kind::pack) return {};
+  return format_pack(text(), file());
+}
+
+}  // namespace oriel

@@ -1,0 +1,75 @@
+#include "studio/lsp/documents.h"
+
+#include "studio/lsp/file_uri.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace oriel::studio {
+
+void OpenDocuments::forget_all() {
+  for (auto& [uri, document] : documents_) {
+    document.pack.reset();
+    document.is_dirty = true;
+  }
+}
+
+void OpenDocuments::open(const std::string& uri, std::optional<std::int64_t> version,
+                         std::string text) {
+  documents_[uri] = {uri, version, std::move(text), nullptr, true};
+  forget_all();
+}
+
+bool OpenDocuments::change(const std::string& uri, std::optional<std::int64_t> version,
+                           const std::vector<DocumentChange>& changes) {
+  OpenDocument* document = find(uri);
+  if (document == nullptr) return false;
+  for (const DocumentChange& change : changes) {
+    if (!change.range) {
+      document->text = change.text;
+      continue;
+    }
+    const TextPlaces places(document->text);
+    const std::size_t begin = places.offset(change.range->first);
+    const std::size_t end = std::max(begin, places.offset(change.range->second));
+    document->text.replace(begin, end - begin, change.text);
+  }
+  document->version = version;
+  forget_all();
+  return true;
+}
+
+bool OpenDocuments::close(const std::string& uri) {
+  const bool was_open = documents_.erase(uri) > 0;
+  if (was_open) forget_all();
+  return was_open;
+}
+
+OpenDocument* OpenDocuments::find(const std::string& uri) {
+  const auto found = documents_.find(uri);
+  return found == documents_.end() ? nullptr : &found->second;
+}
+
+const EditedPack& OpenDocuments::pack_of(OpenDocument& document) {
+  if (document.pack) return *document.pack;
+  const auto text_in_editor = [this](const std::string& path) -> std::optional<std::string> {
+    const OpenDocument* other = find(uri_of_path(path));
+    return other == nullptr ? std::nullopt : std::optional(other->text);
+  };
+  document.pack =
+      std::make_unique<EditedPack>(document.text, path_of_uri(document.uri), text_in_editor);
+  return *document.pack;
+}
+
+std::vector<OpenDocument*> OpenDocuments::dirty() {
+  std::vector<OpenDocument*> dirty;
+  for (auto& [uri, document] : documents_)
+    if (document.is_dirty) dirty.push_back(&document);
+  return dirty;
+}
+
+bool OpenDocuments::has_dirty() const {
+  return std::ranges::any_of(documents_, [](const auto& named) { return named.second.is_dirty; });
+}
+
+}  // namespace oriel::studio

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "oriel/editing.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::studio {
+
+/// A document that is open in an editor.
+struct OpenDocument {
+  std::string uri;
+  std::optional<std::int64_t> version;
+  std::string text;
+  /// What is known of the text; made when it is asked for.
+  std::unique_ptr<EditedPack> pack;
+  /// Its findings have not been told since it changed.
+  bool is_dirty = true;
+};
+
+/// A change of a document: of the piece between two places, or of all of it.
+struct DocumentChange {
+  std::optional<std::pair<TextPlace, TextPlace>> range;
+  std::string text;
+};
+
+/// The open documents, by URI.
+class OpenDocuments {
+ public:
+  void open(const std::string& uri, std::optional<std::int64_t> version, std::string text);
+  /// False if it is not open.
+  bool change(const std::string& uri, std::optional<std::int64_t> version,
+              const std::vector<DocumentChange>& changes);
+  bool close(const std::string& uri);
+
+  /// Null if it is not open.
+  [[nodiscard]] OpenDocument* find(const std::string& uri);
+  /// What is known of an open document.
+  const EditedPack& pack_of(OpenDocument& document);
+  /// Those of which findings are to be told, by URI.
+  [[nodiscard]] std::vector<OpenDocument*> dirty();
+  [[nodiscard]] bool has_dirty() const;
+
+ private:
+  /// What extends or tests the changed one is not what it was.
+  void forget_all();
+
+  std::map<std::string, OpenDocument> documents_;
+};
+
+}  // namespace oriel::studio
