@@ -325,6 +325,7 @@ void add_rules(CLI::App& app, Action& action) {
   add_rules_doc(*rules, action);
   add_rules_words(*rules, action);
   add_rules_explain(*rules, action);
+  add_rules_lsp(*rules, action);
 }
 
 }  // namespace oriel::cli

@@ -75,10 +75,14 @@ bool is_listed(const json& node, const char* list, const std::string& name) {
 
 std::vector<SchemaWord> schema_keys(const YamlPath& path) {
   std::vector<SchemaWord> keys;
-  for (const json* node : nodes_at(path))
-    if (const auto properties = node->find("properties"); properties != node->end())
-      for (const auto& [name, property] : properties->items())
-        add_word(keys, {name, meaning_of(property), is_listed(*node, "required", name)});
+  bool is_first = true;  // of several forms the first is the usual one
+  for (const json* node : nodes_at(path)) {
+    const auto properties = node->find("properties");
+    if (properties == node->end()) continue;
+    for (const auto& [name, property] : properties->items())
+      add_word(keys, {name, meaning_of(property), is_first && is_listed(*node, "required", name)});
+    is_first = false;
+  }
   return keys;
 }
 

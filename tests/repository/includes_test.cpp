@@ -40,6 +40,7 @@ const std::map<std::string, std::string> kAllowed{
     {"kernel/model/polygon_owners.h", "which features a polygon of a page lies in"},
     {"kernel/model/version.h", "--version, status files and pages"},
     {"studio/server/browser.h", "the studio's page is opened"},
+    {"studio/lsp/language_server.h", "rules lsp"},
     {"studio/server/serve.h", "the studio"},
 };
 

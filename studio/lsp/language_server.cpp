@@ -1,0 +1,440 @@
+#include "studio/lsp/language_server.h"
+
+#include "kernel/io/files/output_file.h"
+#include "oriel/rules.h"
+#include "studio/lsp/documents.h"
+#include "studio/lsp/file_uri.h"
+#include "studio/lsp/message_stream.h"
+#include "studio/lsp/protocol_json.h"
+#include "studio/lsp/rpc_error.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::studio {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Findings wait for so long a pause of the client.
+constexpr std::chrono::milliseconds kPause{80};
+/// A client that never pauses gets them after so long.
+constexpr std::chrono::milliseconds kLongestWait{1000};
+
+class LanguageServer {
+ public:
+  LanguageServer(int in, int out, const LanguageServerOptions& options)
+      : stream_(in, out), options_(&options) {}
+
+  int run() {
+    while (!exit_code_) step();
+    return *exit_code_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class Phase { before, running, after };
+
+  using Answer = Json (LanguageServer::*)(const Json&);
+  struct Method {
+    std::string_view name;
+    Answer answer;
+  };
+
+  void step();
+  [[nodiscard]] std::optional<std::chrono::milliseconds> patience() const;
+  void take(const std::string& body);
+  void take_notification(const std::string& method, const Json& params);
+  void answer(const Json& id, const std::string& method, const Json& params);
+  [[nodiscard]] Json result_of(const std::string& method, const Json& params);
+
+  void send(const Json& message);
+  void send_error(const Json& id, RpcCode code, const std::string& sentence);
+  void publish_findings();
+  void publish(const std::string& uri, std::optional<std::int64_t> version, Json findings);
+
+  // Requests.
+  Json initialize(const Json& params);
+  Json shutdown(const Json& params);
+  Json complete(const Json& params);
+  Json hover(const Json& params);
+  Json definition(const Json& params);
+  Json symbols(const Json& params);
+  Json format(const Json& params);
+  Json prepare_rename(const Json& params);
+  Json rename(const Json& params);
+  Json fixes(const Json& params);
+
+  // Notifications.
+  void open(const Json& params);
+  void change(const Json& params);
+  void close(const Json& params);
+
+  struct Asked {
+    const EditedPack* pack = nullptr;
+    std::string uri;
+    std::size_t offset = 0;
+  };
+  /// The document of a request, and the place in it if one is asked about.
+  Asked asked(const Json& params, bool has_position);
+  [[nodiscard]] std::string uri_of(const DefinitionPlace& place, const std::string& here) const;
+
+  MessageStream stream_;
+  const LanguageServerOptions* options_;
+  OpenDocuments documents_;
+  Phase phase_ = Phase::before;
+  bool knows_trees_ = false;
+  bool knows_links_ = false;
+  std::optional<int> exit_code_;
+  std::optional<Clock::time_point> dirty_since_;
+};
+
+std::optional<std::chrono::milliseconds> LanguageServer::patience() const {
+  if (!documents_.has_dirty()) return std::nullopt;
+  if (!dirty_since_) return kPause;
+  const auto waited =
+      std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - *dirty_since_);
+  return std::clamp(kLongestWait - waited, std::chrono::milliseconds{0}, kPause);
+}
+
+/// Takes what comes next; if that is a pause, the newest texts are what findings are of.
+void LanguageServer::step() {
+  if (!documents_.has_dirty())
+    dirty_since_.reset();
+  else if (!dirty_since_)
+    dirty_since_ = Clock::now();
+  if (patience() == std::chrono::milliseconds{0}) return publish_findings();
+  const MessageStream::Read read = stream_.read(patience());
+  switch (read.outcome) {
+    case MessageStream::Outcome::message:
+      return take(read.body);
+    case MessageStream::Outcome::unreadable:
+      return send_error(nullptr, RpcCode::parse_error, read.body);
+    case MessageStream::Outcome::silence:
+      return publish_findings();
+    case MessageStream::Outcome::end:
+      exit_code_ = 1;
+  }
+}
+
+void LanguageServer::take(const std::string& body) {
+  const Json message = Json::parse(body, nullptr, false);
+  if (message.is_discarded())
+    return send_error(nullptr, RpcCode::parse_error, "this is not JSON in UTF-8");
+  const bool is_object = message.is_object();
+  const Json id = is_object ? message.value("id", Json()) : Json();
+  const bool has_id = is_object && message.contains("id");
+  const bool has_method = is_object && message.contains("method") && message["method"].is_string();
+  const bool is_answer = is_object && !message.contains("method") && has_id &&
+                         (message.contains("result") || message.contains("error"));
+  if (is_answer) return;  // nothing is asked of clients
+  const bool is_id = id.is_number_integer() || id.is_string();
+  if (!has_method || (has_id && !is_id))
+    return send_error(is_id ? id : Json(), RpcCode::invalid_request,
+                      "a request is an object with 'method', a text, and 'id', a number or a text");
+  const std::string method = message["method"].get<std::string>();
+  const Json params = message.value("params", Json::object());
+  if (has_id)
+    answer(id, method, params);
+  else
+    take_notification(method, params);
+}
+
+/// Notifications have no answer: what is wrong with one is passed over.
+void LanguageServer::take_notification(const std::string& method, const Json& params) {
+  if (method == "exit") {
+    exit_code_ = phase_ == Phase::after ? 0 : 1;
+    return;
+  }
+  if (phase_ != Phase::running) return;
+  try {
+    if (method == "textDocument/didOpen") open(params);
+    if (method == "textDocument/didChange") change(params);
+    if (method == "textDocument/didClose") close(params);
+  } catch (const Json::exception&) {
+    return;
+  }
+}
+
+void LanguageServer::answer(const Json& id, const std::string& method, const Json& params) {
+  try {
+    Json reply{{"jsonrpc", "2.0"}, {"id", id}};
+    reply["result"] = result_of(method, params);
+    send(reply);
+  } catch (const RpcError& error) {
+    send_error(id, error.code(), error.what());
+  } catch (const Json::exception&) {
+    send_error(id, RpcCode::invalid_params, fmt::format("the params are not those of {}", method));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {
+    send_error(id, RpcCode::internal_error, problem.what());
+  }
+}
+
+Json LanguageServer::result_of(const std::string& method, const Json& params) {
+  static constexpr std::array kMethods = {
+      Method{"initialize", &LanguageServer::initialize},
+      Method{"shutdown", &LanguageServer::shutdown},
+      Method{"textDocument/completion", &LanguageServer::complete},
+      Method{"textDocument/hover", &LanguageServer::hover},
+      Method{"textDocument/definition", &LanguageServer::definition},
+      Method{"textDocument/documentSymbol", &LanguageServer::symbols},
+      Method{"textDocument/formatting", &LanguageServer::format},
+      Method{"textDocument/prepareRename", &LanguageServer::prepare_rename},
+      Method{"textDocument/rename", &LanguageServer::rename},
+      Method{"textDocument/codeAction", &LanguageServer::fixes}};
+  const bool is_first = method == "initialize";
+  if (phase_ == Phase::before && !is_first)
+    throw RpcError(RpcCode::not_initialized, "'initialize' comes first");
+  if (phase_ == Phase::after || (phase_ == Phase::running && is_first))
+    throw RpcError(RpcCode::invalid_request,
+                   is_first ? "'initialize' comes once" : "after 'shutdown' only 'exit' comes");
+  const auto* known = std::ranges::find(kMethods, method, &Method::name);
+  if (known == kMethods.end())
+    throw RpcError(RpcCode::method_not_found, fmt::format("there is no method '{}'", method));
+  return (this->*known->answer)(params);
+}
+
+void LanguageServer::send(const Json& message) {
+  const bool is_heard = stream_.write(message.dump(-1, ' ', false, Json::error_handler_t::replace));
+  if (!is_heard) exit_code_ = 1;
+}
+
+void LanguageServer::send_error(const Json& id, RpcCode code, const std::string& sentence) {
+  send({{"jsonrpc", "2.0"},
+        {"id", id},
+        {"error", {{"code", static_cast<int>(code)}, {"message", sentence}}}});
+}
+
+void LanguageServer::publish(const std::string& uri, std::optional<std::int64_t> version,
+                             Json findings) {
+  Json params{{"uri", uri}};
+  if (version) params["version"] = *version;
+  params["diagnostics"] = std::move(findings);
+  send({{"jsonrpc", "2.0"},
+        {"method", "textDocument/publishDiagnostics"},
+        {"params", std::move(params)}});
+}
+
+void LanguageServer::publish_findings() {
+  dirty_since_.reset();
+  for (OpenDocument* document : documents_.dirty()) {
+    const EditedPack& pack = documents_.pack_of(*document);
+    Json findings = Json::array();
+    for (const TextFinding& finding : pack.findings())
+      findings.push_back(
+          diagnostic_json(pack, finding, knows_links_ ? options_->docs_url : std::string()));
+    document->is_dirty = false;
+    publish(document->uri, document->version, std::move(findings));
+  }
+}
+
+/// The value at a path of members; null if there is none.
+Json member_at(const Json& json, std::initializer_list<const char*> path) {
+  const Json* at = &json;
+  for (const char* key : path) {
+    if (!at->is_object() || !at->contains(key)) return nullptr;
+    at = &(*at)[key];
+  }
+  return *at;
+}
+
+Json LanguageServer::initialize(const Json& params) {
+  const Json text = member_at(params, {"capabilities", "textDocument"});
+  knows_trees_ = member_at(text, {"documentSymbol", "hierarchicalDocumentSymbolSupport"}) == true;
+  knows_links_ = member_at(text, {"publishDiagnostics", "codeDescriptionSupport"}) == true;
+  phase_ = Phase::running;
+  return {{"capabilities",
+           {{"positionEncoding", "utf-16"},
+            {"textDocumentSync", {{"openClose", true}, {"change", 2}}},
+            {"completionProvider", {{"triggerCharacters", {"$", ".", "(", " "}}}},
+            {"hoverProvider", true},
+            {"definitionProvider", true},
+            {"documentSymbolProvider", true},
+            {"documentFormattingProvider", true},
+            {"renameProvider", {{"prepareProvider", true}}},
+            {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}}}},
+          {"serverInfo", {{"name", "oriel"}, {"version", options_->version}}}};
+}
+
+Json LanguageServer::shutdown(const Json& /*params*/) {
+  phase_ = Phase::after;
+  return nullptr;
+}
+
+LanguageServer::Asked LanguageServer::asked(const Json& params, bool has_position) {
+  Asked asked;
+  asked.uri = params.at("textDocument").at("uri").get<std::string>();
+  OpenDocument* document = documents_.find(asked.uri);
+  if (document == nullptr)
+    throw RpcError(RpcCode::invalid_params, fmt::format("'{}' is not open", asked.uri));
+  asked.pack = &documents_.pack_of(*document);
+  if (has_position)
+    asked.offset = asked.pack->places().offset(place_of_position(params.at("position")));
+  return asked;
+}
+
+Json LanguageServer::complete(const Json& params) {
+  const Asked at = asked(params, true);
+  return completion_json(*at.pack, at.offset);
+}
+
+Json LanguageServer::hover(const Json& params) {
+  const Asked at = asked(params, true);
+  const auto hover = at.pack->hover(at.offset);
+  if (!hover) return nullptr;
+  return {{"contents", {{"kind", "plaintext"}, {"value", hover->text}}},
+          {"range", protocol_range(at.pack->places(), hover->where)}};
+}
+
+/// A built-in pack has no file: what leads there leads into a copy of it.
+std::string LanguageServer::uri_of(const DefinitionPlace& place, const std::string& here) const {
+  if (place.is_here) return here;
+  if (!place.is_built_in) return uri_of_path(place.file);
+  const std::string name = std::filesystem::path(place.file).stem().string();
+  const auto text = embedded_pack(name);
+  if (options_->copies.empty() || !text) return "";
+  const std::filesystem::path copy = std::filesystem::path(options_->copies) / place.file;
+  std::error_code problem;
+  std::filesystem::create_directories(options_->copies, problem);
+  if (problem) return "";
+  try {
+    write_file(copy.string(), std::string(*text));
+  } catch (const OutputError&) {
+    return "";
+  }
+  return uri_of_path(copy.string());
+}
+
+Json LanguageServer::definition(const Json& params) {
+  const Asked at = asked(params, true);
+  const auto place = at.pack->definition(at.offset);
+  const std::string uri = place ? uri_of(*place, at.uri) : "";
+  if (uri.empty()) return nullptr;
+  return {{"uri", uri},
+          {"range", {{"start", position_json(place->begin)}, {"end", position_json(place->end)}}}};
+}
+
+Json LanguageServer::symbols(const Json& params) {
+  const Asked at = asked(params, false);
+  return symbols_json(*at.pack, at.uri, knows_trees_);
+}
+
+/// A pack with errors stays as it is: its findings are shown already.
+Json LanguageServer::format(const Json& params) {
+  const Asked at = asked(params, false);
+  const auto formatted = at.pack->format();
+  if (!formatted.value) return Json::array();
+  return edits_json(at.pack->places(), changed_lines(at.pack->text(), *formatted.value));
+}
+
+Json LanguageServer::prepare_rename(const Json& params) {
+  const Asked at = asked(params, true);
+  const auto where = at.pack->renameable(at.offset);
+  if (!where) return nullptr;
+  return {{"range", protocol_range(at.pack->places(), *where)},
+          {"placeholder", at.pack->text().substr(where->begin, where->end - where->begin)}};
+}
+
+Json LanguageServer::rename(const Json& params) {
+  const Asked at = asked(params, true);
+  const Renaming renaming = at.pack->rename(at.offset, params.at("newName").get<std::string>());
+  if (!renaming.refusal.empty()) throw RpcError(RpcCode::request_failed, renaming.refusal);
+  Json changes = Json::object();
+  for (const FileEdits& file : renaming.files) {
+    const std::string uri = file.file == at.pack->file() ? at.uri : uri_of_path(file.file);
+    changes[uri] = edits_json(TextPlaces(file.text), file.edits);
+  }
+  return {{"changes", std::move(changes)}};
+}
+
+Json LanguageServer::fixes(const Json& params) {
+  const Asked at = asked(params, false);
+  const TextPlaces& places = at.pack->places();
+  const Json& range = params.at("range");
+  const std::size_t begin = places.offset(place_of_position(range.at("start")));
+  const std::size_t end = places.offset(place_of_position(range.at("end")));
+  const Json only = member_at(params, {"context", "only"});
+  const auto is_asked = [](const Json& kind) { return kind == "quickfix" || kind == ""; };
+  Json actions = Json::array();
+  if (only.is_array() && std::ranges::none_of(only, is_asked)) return actions;
+  for (const TextFinding& finding : at.pack->findings()) {
+    if (finding.where.begin > end || finding.where.end < begin) continue;
+    for (const QuickFix& fix : finding.fixes) {
+      Json edits;
+      edits[at.uri] = edits_json(places, fix.edits);
+      actions.push_back({{"title", fix.title},
+                         {"kind", "quickfix"},
+                         {"diagnostics", Json::array({diagnostic_json(
+                                             *at.pack, finding,
+                                             knows_links_ ? options_->docs_url : std::string())})},
+                         {"isPreferred", true},
+                         {"edit", {{"changes", std::move(edits)}}}});
+    }
+  }
+  return actions;
+}
+
+std::optional<std::int64_t> version_in(const Json& document) {
+  const Json version = member_at(document, {"version"});
+  return version.is_number_integer() ? std::optional(version.get<std::int64_t>()) : std::nullopt;
+}
+
+void LanguageServer::open(const Json& params) {
+  const Json& document = params.at("textDocument");
+  documents_.open(document.at("uri").get<std::string>(), version_in(document),
+                  document.at("text").get<std::string>());
+  publish_findings();
+}
+
+void LanguageServer::change(const Json& params) {
+  const Json& document = params.at("textDocument");
+  std::vector<DocumentChange> changes;
+  for (const Json& content : params.at("contentChanges")) {
+    DocumentChange& change = changes.emplace_back();
+    change.text = content.at("text").get<std::string>();
+    if (!content.contains("range")) continue;
+    const Json& range = content["range"];
+    change.range = {place_of_position(range.at("start")), place_of_position(range.at("end"))};
+  }
+  documents_.change(document.at("uri").get<std::string>(), version_in(document), changes);
+}
+
+/// What an editor shows of a closed document goes.
+void LanguageServer::close(const Json& params) {
+  const std::string uri = params.at("textDocument").at("uri").get<std::string>();
+  if (documents_.close(uri)) publish(uri, std::nullopt, Json::array());
+}
+
+}  // namespace
+
+int serve_language(int in, int out, const LanguageServerOptions& options) {
+  return LanguageServer(in, out, options).run();
+}
+
+std::string folder_of_copies() {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value == nullptr ? "" : value);
+  };
+  const std::string cache = variable("XDG_CACHE_HOME");
+  if (cache.starts_with('/')) return cache + "/oriel/packs";
+  const std::string home = variable("HOME");
+  return home.starts_with('/') ? home + "/.cache/oriel/packs" : "";
+}
+
+}  // namespace oriel::studio
