@@ -28,14 +28,16 @@ Issue issue_of_samples(Severity severity, std::string sentence) {
 class SampleReader {
  public:
   void read_records(const std::string& path, const RuleBase& rules) {
-    for (Sample& sample : read_stored_samples(path, &rules, issues_)) {
-      const std::string& id = sample.features.table.building();
-      if (ids_.insert(id).second)
-        stored_.push_back(std::move(sample));
-      else
-        issues_.push_back(issue_of_samples(
-            Severity::error, fmt::format("the building '{}' occurs twice in the records", id)));
-    }
+    for (Sample& sample : read_stored_samples(path, &rules, issues_)) add(std::move(sample));
+  }
+
+  void add(Sample sample) {
+    const std::string& id = sample.features.table.building();
+    if (ids_.insert(id).second)
+      stored_.push_back(std::move(sample));
+    else
+      issues_.push_back(issue_of_samples(
+          Severity::error, fmt::format("the building '{}' occurs twice in the records", id)));
   }
 
   void read_truth(const std::string& path) {
@@ -45,8 +47,24 @@ class SampleReader {
           fmt::format("the building '{}' has two truths; the second is in {}", id, path)));
   }
 
-  /// What people say is true, too.
-  void add_corrections(const Corrections& corrections) {
+  void add(const GroundTruth& truth) {
+    if (!add_truth(truth, truths_))
+      issues_.push_back(issue_of_samples(
+          Severity::error, fmt::format("the building '{}' has two truths", truth.building)));
+  }
+
+  /// What people say is true, too; null: nobody says anything.
+  Checked<std::vector<Sample>> result(const Corrections* corrections) {
+    if (corrections != nullptr) add(*corrections);
+    report(unpaired_buildings({ids_.begin(), ids_.end()}, truths_));
+    if (has_errors(issues_)) return {std::nullopt, std::move(issues_)};
+    std::vector<std::string> buildings;
+    for (const auto& [id, objects] : truths_) buildings.push_back(id);
+    return {samples_of(std::move(stored_), truths_, buildings), std::move(issues_)};
+  }
+
+ private:
+  void add(const Corrections& corrections) {
     for (Sample& sample : stored_) {
       const std::string& id = sample.features.table.building();
       if (const auto truth = truths_.find(id); truth != truths_.end()) sample.truth = truth->second;
@@ -56,15 +74,6 @@ class SampleReader {
     std::ranges::move(corrections.unknown_buildings(ids_), std::back_inserter(issues_));
   }
 
-  Checked<std::vector<Sample>> result() {
-    report(unpaired_buildings({ids_.begin(), ids_.end()}, truths_));
-    if (has_errors(issues_)) return {std::nullopt, std::move(issues_)};
-    std::vector<std::string> buildings;
-    for (const auto& [id, objects] : truths_) buildings.push_back(id);
-    return {samples_of(std::move(stored_), truths_, buildings), std::move(issues_)};
-  }
-
- private:
   void report(const UnpairedBuildings& unpaired) {
     const auto& [without_truth, without_features] = unpaired;
     if (without_truth.size() == ids_.size()) {
@@ -102,8 +111,25 @@ Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
   SampleReader reader;
   for (const std::string& path : records) reader.read_records(path, rules);
   for (const std::string& path : truths) reader.read_truth(path);
-  if (corrections != nullptr) reader.add_corrections(*corrections);
-  return reader.result();
+  return reader.result(corrections);
+}
+
+Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
+                                          std::span<const GroundTruth> truths,
+                                          const RuleBase& rules, const Corrections* corrections) {
+  SampleReader reader;
+  for (const std::string& path : records) reader.read_records(path, rules);
+  for (const GroundTruth& truth : truths) reader.add(truth);
+  return reader.result(corrections);
+}
+
+Checked<std::vector<Sample>> join_samples(std::vector<Sample> features,
+                                          std::span<const GroundTruth> truths,
+                                          const Corrections* corrections) {
+  SampleReader reader;
+  for (Sample& sample : features) reader.add(std::move(sample));
+  for (const GroundTruth& truth : truths) reader.add(truth);
+  return reader.result(corrections);
 }
 
 Checked<Objective::Costs> read_costs_file(const std::string& path) {

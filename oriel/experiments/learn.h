@@ -1,7 +1,7 @@
 #pragma once
 
-/// Rules that learn from samples (docs/learn.md): read_samples, folds_of, learn_params,
-/// learnt_pack, open_questions.
+/// Rules that learn from samples (docs/learn.md): read_samples, join_samples, folds_of,
+/// learn_params, learnt_pack, open_questions, propose.
 #include "interpret/experiment/learn/ask.h"           // IWYU pragma: export
 #include "interpret/experiment/learn/folds.h"         // IWYU pragma: export
 #include "interpret/experiment/learn/learn_params.h"  // IWYU pragma: export
@@ -12,6 +12,7 @@
 #include "interpret/labelling/corrections.h"          // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/issue.h"
+#include "kernel/io/records/truth.h"
 
 #include <span>
 #include <string>
@@ -33,6 +34,17 @@ namespace oriel {
 Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
                                           std::span<const std::string> truths,
                                           const RuleBase& rules,
+                                          const Corrections* corrections = nullptr);
+
+/// The same with truth that was read before.
+Checked<std::vector<Sample>> read_samples(std::span<const std::string> records,
+                                          std::span<const GroundTruth> truths,
+                                          const RuleBase& rules,
+                                          const Corrections* corrections = nullptr);
+
+/// The same of features that are at hand, each sample without truth.
+Checked<std::vector<Sample>> join_samples(std::vector<Sample> features,
+                                          std::span<const GroundTruth> truths,
                                           const Corrections* corrections = nullptr);
 
 /// read_costs() of a file. Throws InputError E101 if it cannot be read.

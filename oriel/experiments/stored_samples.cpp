@@ -1,7 +1,6 @@
 #include "oriel/experiments/stored_samples.h"
 
 #include "kernel/io/records/feature_tables.h"
-#include "kernel/io/records/truth.h"
 #include "oriel/interpret.h"
 #include "oriel/score.h"
 
@@ -52,13 +51,15 @@ std::vector<std::string> add_truth(const std::string& path, TruthByBuilding& tru
   auto read = read_truths(path);
   std::ranges::move(read.issues, std::back_inserter(issues));
   if (!read.value) return known;
-  for (const GroundTruth& truth : *read.value) {
-    LabelsAndTruth all;
-    add(truth, all);
-    if (!truths.try_emplace(truth.building, std::move(all.truth)).second)
-      known.push_back(truth.building);
-  }
+  for (const GroundTruth& truth : *read.value)
+    if (!add_truth(truth, truths)) known.push_back(truth.building);
   return known;
+}
+
+bool add_truth(const GroundTruth& truth, TruthByBuilding& truths) {
+  LabelsAndTruth all;
+  add(truth, all);
+  return truths.try_emplace(truth.building, std::move(all.truth)).second;
 }
 
 UnpairedBuildings unpaired_buildings(const std::vector<std::string>& with_features,

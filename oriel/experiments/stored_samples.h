@@ -3,6 +3,7 @@
 #include "interpret/experiment/sample.h"
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/issue.h"
+#include "kernel/io/records/truth.h"
 
 #include <map>
 #include <span>
@@ -24,6 +25,8 @@ std::vector<Sample> read_stored_samples(const std::string& path, const RuleBase*
 /// was known before: that of the file is passed over. Throws InputError E101.
 std::vector<std::string> add_truth(const std::string& path, TruthByBuilding& truths,
                                    std::vector<Issue>& issues);
+/// The same of one building; false if its truth was known before.
+bool add_truth(const GroundTruth& truth, TruthByBuilding& truths);
 
 /// Buildings of which there is only one of both, sorted.
 struct UnpairedBuildings {

@@ -14,8 +14,13 @@ from ._oriel import (
     File,
     Generalised,
     Issue,
+    KnifeEdge,
+    LearntParam,
+    Learnt,
     Miss,
     Place,
+    Proposal,
+    Question,
     Repaired,
     Result,
     Score,
@@ -35,13 +40,15 @@ from .features import (
     schema,
     write_features,
 )
+from .learning import learn
 from .packs import Pack, Param, embedded_packs
 from .scores import read_truth, score
 from .stages import explain, explain_json, generalise, label, repair, segment
 
 __all__ = [
-    "Attribute", "Building", "ClassScore", "Error", "Explanation", "Features", "File", "Generalised", "Issue", "Items",
-    "Lists", "Miss", "Pack", "Param", "Place", "Repaired", "Result", "Score", "Truth", "__version__", "embedded_packs", "explain",
-    "explain_json", "features", "generalise", "interpret", "label", "read", "read_features", "read_text", "read_truth",
+    "Attribute", "Building", "ClassScore", "Error", "Explanation", "Features", "File", "Generalised", "Issue",
+    "Items", "KnifeEdge", "Learnt", "LearntParam", "Lists", "Miss", "Pack", "Param", "Place", "Proposal", "Question",
+    "Repaired", "Result", "Score", "Truth", "__version__", "embedded_packs", "explain", "explain_json", "features",
+    "generalise", "interpret", "label", "learn", "read", "read_features", "read_text", "read_truth",
     "relation_schema", "repair", "schema", "score", "segment", "to_text", "write", "write_features",
 ]

@@ -4,6 +4,7 @@
 #include "oriel/interpret.h"
 #include "oriel/label.h"
 #include "oriel/read.h"
+#include "oriel/score.h"
 #include "oriel/write.h"
 
 #include <cstddef>
@@ -125,6 +126,12 @@ struct FeatureSet {
   [[nodiscard]] std::size_t feature_count() const;
 };
 
+/// What is known to be there, of many buildings.
+struct TruthSet {
+  std::vector<GroundTruth> buildings;
+  std::vector<Issue> issues;
+};
+
 /// The records of a building of the set, as the command writes them; with attributes and relations,
 /// or only with what scoring needs.
 std::vector<FeatureRecord> records_of(const FeatureSet& set, std::size_t building, bool is_whole);
@@ -134,5 +141,6 @@ void bind_buildings(pybind11::module_& module);
 void bind_stages(pybind11::module_& module);
 void bind_features(pybind11::module_& module);
 void bind_score(pybind11::module_& module);
+void bind_learning(pybind11::module_& module);
 
 }  // namespace oriel::python

@@ -78,4 +78,5 @@ PYBIND11_MODULE(_oriel, module) {
   oriel::python::bind_stages(module);
   oriel::python::bind_features(module);
   oriel::python::bind_score(module);
+  oriel::python::bind_learning(module);
 }

@@ -17,12 +17,6 @@ namespace oriel::python {
 
 namespace {
 
-/// What is known to be there, of many buildings.
-struct TruthSet {
-  std::vector<GroundTruth> buildings;
-  std::vector<Issue> issues;
-};
-
 /// A comparison of labels with truth, with all that was asked for.
 struct ScoreReport {
   Score total;

@@ -6,7 +6,7 @@ import time
 import unittest
 
 import oriel
-from support import SAMPLES, TRUTH, FolderTest
+from support import HOUSE, SAMPLES, TRUTH, FolderTest
 
 LEAST_TURNS = 2
 MOST_TRIES = 200
@@ -43,12 +43,15 @@ class ThreadsTest(FolderTest):
         building = oriel.read(BLOCK)[0]
         labelled = oriel.label(building)
         features, truth = oriel.features(labelled), oriel.read_truth(TRUTH)
+        labelled_two = oriel.features([labelled, oriel.label(oriel.read(HOUSE)[0])])
+        two_truths = oriel.read_truth([TRUTH, SAMPLES / "block.truth.json"])
         for name, work in {
             "label": lambda: oriel.label(building),
             "segment": lambda: oriel.segment(building),
             "generalise": lambda: oriel.generalise(labelled, scale=5000),
             "explain": lambda: oriel.explain(labelled),
             "score": lambda: oriel.score(features, truth, bootstrap=20000),
+            "learn": lambda: oriel.learn(labelled_two, two_truths, params=["parapet"], folds=2, restarts=0),
         }.items():
             with self.subTest(name):
                 turns = tries = 0

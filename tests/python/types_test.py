@@ -37,7 +37,7 @@ class TypesTest(unittest.TestCase):
 
     def test_options_have_the_names_and_defaults_of_the_command(self):
         compared = 0
-        for function in (oriel.label, oriel.segment, oriel.repair, oriel.generalise, oriel.score):
+        for function in (oriel.label, oriel.segment, oriel.repair, oriel.generalise, oriel.score, oriel.learn):
             shown = defaults_of(function.__name__)
             for name, parameter in inspect.signature(function).parameters.items():
                 if parameter.kind != parameter.KEYWORD_ONLY:

@@ -62,6 +62,25 @@ TEST_SUITE("oriel/experiments") {
     CHECK(codes_of(samples.issues) == std::vector<std::string>{"E151", "R284", "R284"});
   }
 
+  TEST_CASE("features at hand are joined with truth as stored ones are") {
+    const Folder folder;
+    const std::vector<std::string> records{folder.write("parts.csv", stored_parts({"b", "a"}))};
+    const auto truth = read_truths(folder.write("b.truth.json", window_in("b"))).value.value();
+    std::vector<Issue> issues;
+    const auto at_hand = join_samples(read_stored_samples(records[0], nullptr, issues), truth);
+    const auto stored = read_samples(records, truth, pack_of_samples());
+    REQUIRE(at_hand.value);
+    REQUIRE(stored.value);
+    REQUIRE(at_hand.value->size() == 1);
+    CHECK(at_hand.value->front().features.table.building() == "b");
+    CHECK(at_hand.value->front().truth.size() == stored.value->front().truth.size());
+    CHECK(codes_of(at_hand.issues) == std::vector<std::string>{"R284"});
+    const auto twice = join_samples(read_stored_samples(records[0], nullptr, issues),
+                                    std::vector{truth[0], truth[0]});
+    CHECK_FALSE(twice.value);
+    CHECK(codes_of(twice.issues) == std::vector<std::string>{"R284", "R284"});
+  }
+
   TEST_CASE("records without boxes are reported as nothing is found with them") {
     const Folder folder;
     std::vector<Issue> issues;
