@@ -11,15 +11,15 @@ namespace oriel {
 
 /// What can be written at a place.
 struct Completion {
-  std::string label;
+  std::string label{};
   /// "attribute", "param", "class", "predicate", "macro", "relation", "group", "rule", "fixture",
   /// "pack", "operator", "function", "unit", "value", "word" or "key".
-  std::string kind;
-  std::string detail;
-  std::string documentation;
+  std::string kind{};
+  std::string detail{};
+  std::string documentation{};
   /// What replaces the text at `replaced`.
-  std::string insert;
-  TextSpan replaced;
+  std::string insert{};
+  TextSpan replaced{};
 };
 
 namespace rules {

@@ -25,38 +25,38 @@ using OpenTexts = std::function<std::optional<std::string>(const std::string& pa
 struct TextFinding {
   Severity severity = Severity::error;
   Code code = Code::none;
-  std::string sentence;
+  std::string sentence{};
   /// What it is about. A fault in a pack beneath is shown at `extends:`, its place in the sentence.
-  TextSpan where;
-  std::vector<QuickFix> fixes;
+  TextSpan where{};
+  std::vector<QuickFix> fixes{};
 };
 
 /// What is known of the word at a place.
 struct HoverText {
-  std::string text;  ///< plain, in lines
-  TextSpan where;
+  std::string text{};  ///< plain, in lines
+  TextSpan where{};
 };
 
 /// Where a name is stated.
 struct DefinitionPlace {
-  std::string file;
+  std::string file{};
   bool is_here = false;      ///< in the edited text
   bool is_built_in = false;  ///< in the embedded pack called `file` without ".yaml"
-  TextPlace begin;
-  TextPlace end;
+  TextPlace begin{};
+  TextPlace end{};
 };
 
 /// The changes of one file; `text` is what it says before.
 struct FileEdits {
-  std::string file;
-  std::string text;
-  std::vector<TextEdit> edits;
+  std::string file{};
+  std::string text{};
+  std::vector<TextEdit> edits{};
 };
 
 /// What renaming changes: the edited text first, then the tests next to it; or why it cannot be.
 struct Renaming {
-  std::vector<FileEdits> files;
-  std::string refusal;
+  std::vector<FileEdits> files{};
+  std::string refusal{};
 };
 
 /// The text of a rule pack, of a file of tests or of a profile, while somebody writes it: it may be

@@ -32,12 +32,12 @@ enum class WordSort {
 
 struct PackWord {
   WordSort sort = WordSort::language;
-  std::string name;
-  SourceSpan span;
+  std::string name{};
+  SourceSpan span{};
   /// The name is declared here.
   bool is_declaration = false;
   /// Of a text value: the attribute.
-  std::string attribute;
+  std::string attribute{};
 };
 
 /// The tokens of the expression at `where`, up to its first fault, without an end token.

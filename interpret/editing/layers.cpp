@@ -13,7 +13,7 @@ namespace oriel::rules {
 namespace {
 
 struct NamedSection {
-  std::string_view key;
+  std::string_view key{};
   WordSort sort;
 };
 

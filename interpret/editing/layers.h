@@ -22,9 +22,9 @@ struct PackLayer {
 /// A name that a pack, or one beneath, declares.
 struct DeclaredName {
   WordSort sort = WordSort::param;
-  std::string name;
+  std::string name{};
   const PackLayer* layer = nullptr;
-  SourceSpan span;
+  SourceSpan span{};
   /// What stands after the name; of a rule or an entry all of it.
   const YamlNode* value = nullptr;
 };

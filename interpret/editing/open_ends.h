@@ -8,7 +8,7 @@ namespace oriel::rules {
 /// What is open at the end of the begin of a YAML text.
 struct OpenEnds {
   /// The brackets that would close what is open, innermost first, such as `]}`.
-  std::string closers;
+  std::string closers{};
   char quote = '\0';  ///< the text that is being written is in quotes of this kind
   bool is_comment = false;
   bool is_literal = false;  ///< it is among the lines of a text after `|` or `>`

@@ -12,16 +12,16 @@ namespace oriel {
 struct OutlineItem {
   /// "section", "param", "class", "predicate", "macro", "relation", "group", "rule", "entry",
   /// "fixture" or "test".
-  std::string kind;
-  std::string name;
+  std::string kind{};
+  std::string name{};
   /// The section; empty: it is one itself.
-  std::string section;
+  std::string section{};
   /// Of a class its superclass, of a rule its label; else empty.
-  std::string parent;
-  std::string detail;
+  std::string parent{};
+  std::string detail{};
   /// From its name to its end, blank lines and comments after it not counted.
-  TextSpan where;
-  TextSpan name_span;
+  TextSpan where{};
+  TextSpan name_span{};
 };
 
 namespace rules {

@@ -11,8 +11,8 @@ namespace oriel {
 
 /// A change that takes a finding away.
 struct QuickFix {
-  std::string title;  ///< "replace 'heigth' by 'height'"
-  std::vector<TextEdit> edits;
+  std::string title{};  ///< "replace 'heigth' by 'height'"
+  std::vector<TextEdit> edits{};
 };
 
 namespace rules {

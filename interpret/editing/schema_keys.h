@@ -10,8 +10,8 @@ namespace oriel::rules {
 
 /// A key, or a fixed value, that pack_schema() has somewhere.
 struct SchemaWord {
-  std::string name;
-  std::string meaning;
+  std::string name{};
+  std::string meaning{};
   bool is_required = false;
 };
 

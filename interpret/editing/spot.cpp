@@ -71,9 +71,9 @@ std::string lines_above(std::string_view text, std::size_t from, std::size_t off
 
 /// The key or value of a tree that an offset is in, and the map whose key it is.
 struct FoundNode {
-  YamlPath path;
+  YamlPath path{};
   bool is_key = false;
-  SourceSpan span;
+  SourceSpan span{};
 };
 
 std::optional<FoundNode> find_node(const YamlNode& root, std::size_t offset) {

@@ -13,13 +13,13 @@ namespace oriel::rules {
 struct WritingSpot {
   /// To the value, or of a key to the value that it will have; its last step is then what is
   /// written of the key so far.
-  YamlPath path;
+  YamlPath path{};
   bool is_key = false;
   /// What is written of it, up to the place, and where that begins in the text.
-  std::string written;
+  std::string written{};
   std::size_t begin = 0;
   /// Of a key: the other keys of its map.
-  std::vector<std::string> siblings;
+  std::vector<std::string> siblings{};
 };
 
 /// What `offset` in `text` may be meant as: a key, a value, or both where a list may have either.

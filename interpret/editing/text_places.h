@@ -23,8 +23,8 @@ struct TextPlace {
 
 /// Replaces what stands at `where`.
 struct TextEdit {
-  TextSpan where;
-  std::string text;
+  TextSpan where{};
+  std::string text{};
 };
 
 /// `text` with all of the edits, which must not overlap, in whatever order.

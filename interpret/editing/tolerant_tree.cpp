@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostLinesOut = 12;
 
 struct YamlTry {
-  std::optional<YamlNode> tree;
+  std::optional<YamlNode> tree{};
   std::size_t fault = 0;
 };
 

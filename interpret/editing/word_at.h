@@ -26,8 +26,8 @@ std::string hover_text(const PackLayers& layers, const PackWord& word);
 
 /// What the schema says of the key at `offset` of the top layer, and where the key is.
 struct KeyText {
-  SourceSpan span;
-  std::string text;
+  SourceSpan span{};
+  std::string text{};
 };
 std::optional<KeyText> key_text(const PackLayers& layers, std::size_t offset);
 

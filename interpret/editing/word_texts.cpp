@@ -71,9 +71,9 @@ WordText text_of_word(std::string_view sort, const std::optional<VocabularyWord>
 }
 
 struct FixedWord {
-  std::string_view name;
-  std::string_view detail;
-  std::string_view meaning;
+  std::string_view name{};
+  std::string_view detail{};
+  std::string_view meaning{};
 };
 
 constexpr FixedWord kFunctions[] = {

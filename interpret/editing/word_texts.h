@@ -10,9 +10,9 @@ namespace oriel::rules {
 
 /// What editors show of a word.
 struct WordText {
-  std::string sort;    ///< "attribute", "param", "class" …
-  std::string detail;  ///< on its line: the unit, the value
-  std::string meaning;
+  std::string sort{};    ///< "attribute", "param", "class" …
+  std::string detail{};  ///< on its line: the unit, the value
+  std::string meaning{};
 
   /// "parapet: param, 0.9 m in 0.6 m .. 1.1 m" and below it the meaning.
   [[nodiscard]] std::string hover(std::string_view name) const;

@@ -25,7 +25,7 @@ void visit_below(const YamlNode& node, YamlPath& path, const YamlVisitor& visit)
 
 /// A path as a pattern matches it: `rules.#.require` ends in one, `*` is any key, `#` any item.
 struct PlacePattern {
-  std::string_view pattern;
+  std::string_view pattern{};
   YamlPlace place;
 };
 

@@ -11,7 +11,7 @@ namespace oriel::rules {
 
 /// A step from a node of a YAML tree to one in it: the value of a key, or an item of a list.
 struct YamlStep {
-  std::string key;
+  std::string key{};
   int index = -1;  ///< -1: a key
 
   [[nodiscard]] bool is_key() const { return index < 0; }

@@ -13,9 +13,9 @@ namespace oriel::studio {
 
 /// A document that is open in an editor.
 struct OpenDocument {
-  std::string uri;
-  std::optional<std::int64_t> version;
-  std::string text;
+  std::string uri{};
+  std::optional<std::int64_t> version{};
+  std::string text{};
   /// What is known of the text; made when it is asked for.
   std::unique_ptr<EditedPack> pack;
   /// Its findings have not been told since it changed.
@@ -24,8 +24,8 @@ struct OpenDocument {
 
 /// A change of a document: of the piece between two places, or of all of it.
 struct DocumentChange {
-  std::optional<std::pair<TextPlace, TextPlace>> range;
-  std::string text;
+  std::optional<std::pair<TextPlace, TextPlace>> range{};
+  std::string text{};
 };
 
 /// The open documents, by URI.

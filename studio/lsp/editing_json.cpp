@@ -41,8 +41,8 @@ std::size_t begin_of_advice(const std::string& sentence) {
 
 /// A request of the page, read.
 struct LanguageQuestion {
-  std::string verb;
-  std::string name;
+  std::string verb{};
+  std::string name{};
   EditedPack pack;
   std::size_t offset = 0;
 };
@@ -116,7 +116,7 @@ Json fixes(const LanguageQuestion& question) {
 }
 
 struct LanguageVerb {
-  std::string_view name;
+  std::string_view name{};
   Json (*answer)(const LanguageQuestion&);
 };
 constexpr std::array<LanguageVerb, 7> kVerbs = {{{"complete", complete},

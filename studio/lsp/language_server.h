@@ -6,11 +6,11 @@ namespace oriel::studio {
 
 struct LanguageServerOptions {
   /// Of the program, as clients show it.
-  std::string version;
+  std::string version{};
   /// The pages that messages link to begin with it: `DOCS_URL/rules.md#r204-unknown-attribute`.
-  std::string docs_url;
+  std::string docs_url{};
   /// A folder for copies of built-in packs, to which definitions lead; empty: they lead nowhere.
-  std::string copies;
+  std::string copies{};
 };
 
 /// Speaks the Language Server Protocol (version 3.17) on two file descriptors until `exit`, or

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 /// A word of ours with its number in the protocol.
 struct ProtocolKind {
-  std::string_view word;
+  std::string_view word{};
   int number;
 };
 
