@@ -42,7 +42,7 @@ std::string without_byte_order_mark(std::string text) {
 }
 
 /// The text at `path` as an editor has it, else as it is on disk.
-std::optional<std::string> text_of_file(const std::string& path, const OpenTexts& open) {
+std::optional<std::string> text_open_or_stored(const std::string& path, const OpenTexts& open) {
   if (auto text = open ? open(path) : std::nullopt) return text;
   return rules::read_file(path);
 }
@@ -245,7 +245,7 @@ Renaming EditedPack::rename(std::size_t offset, const std::string& name) const {
   if (kind() != Kind::pack || !file().ends_with(kYamlExtension)) return renaming;
   const std::string tests =
       file().substr(0, file().size() - kYamlExtension.size()) + std::string(kTestExtension);
-  auto text_of_tests = text_of_file(tests, state_->open);
+  auto text_of_tests = text_open_or_stored(tests, state_->open);
   if (!text_of_tests) return renaming;
   const rules::PackLayers of_tests(without_byte_order_mark(std::move(*text_of_tests)), tests,
                                    [&](const std::string&) {

@@ -29,7 +29,7 @@ std::size_t end_of_node(const YamlNode& node, const std::string& text) {
 
 TextSpan as_text(SourceSpan span) { return {span.begin, span.end}; }
 
-std::string scalar_at(const YamlNode& map, std::string_view key) {
+std::string text_below(const YamlNode& map, std::string_view key) {
   const YamlNode* value = find_value(map, key);
   return value == nullptr ? "" : value->text;
 }
@@ -40,8 +40,8 @@ OutlineItem item_of(const DeclaredName& declared, const std::string& text) {
   item.name_span = as_text(declared.span);
   const std::size_t begin = std::min(declared.span.begin, declared.value->span.begin);
   item.where = {begin, end_of_node(*declared.value, text)};
-  if (declared.sort == WordSort::class_name) item.parent = scalar_at(*declared.value, "is");
-  if (declared.sort == WordSort::rule) item.parent = scalar_at(*declared.value, "label");
+  if (declared.sort == WordSort::class_name) item.parent = text_below(*declared.value, "is");
+  if (declared.sort == WordSort::rule) item.parent = text_below(*declared.value, "label");
   return item;
 }
 

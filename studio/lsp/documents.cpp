@@ -3,9 +3,28 @@
 #include "studio/lsp/file_uri.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string_view>
 #include <utility>
 
 namespace oriel::studio {
+
+bool is_of_oriel(const EditedPack& pack) {
+  if (pack.kind() != EditedPack::Kind::pack) return pack.kind() != EditedPack::Kind::other;
+  bool has_keys = false;
+  const std::string_view text = pack.text();
+  for (std::size_t line = 0; line < text.size();) {
+    const std::size_t end = std::min(text.find('\n', line), text.size());
+    const std::string_view content = text.substr(line, end - line);
+    for (const std::string_view key : {"schema: oriel", "pack:", "extends:"})
+      if (content.starts_with(key)) return true;
+    const bool is_indented =
+        content.empty() || std::string_view(" \t#-").find(content[0]) != content.npos;
+    has_keys = has_keys || (!is_indented && content.find(':') != std::string_view::npos);
+    line = end + 1;
+  }
+  return !has_keys;
+}
 
 void OpenDocuments::forget_all() {
   for (auto& [uri, document] : documents_) {

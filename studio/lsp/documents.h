@@ -22,6 +22,11 @@ struct OpenDocument {
   bool is_dirty = true;
 };
 
+/// False for YAML that is about something else: it has keys that are not indented, and `schema:
+/// oriel…`, `pack:`, `extends:` and `tests_for:` are none of them. Editors send all files that are
+/// YAML; those are left alone.
+bool is_of_oriel(const EditedPack& pack);
+
 /// A change of a document: of the piece between two places, or of all of it.
 struct DocumentChange {
   std::optional<std::pair<TextPlace, TextPlace>> range{};

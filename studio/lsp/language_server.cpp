@@ -206,6 +206,8 @@ Json LanguageServer::result_of(const std::string& method, const Json& params) {
   const auto* known = std::ranges::find(kMethods, method, &Method::name);
   if (known == kMethods.end())
     throw RpcError(RpcCode::method_not_found, fmt::format("there is no method '{}'", method));
+  const bool is_of_document = method.starts_with("textDocument/");
+  if (is_of_document && !is_of_oriel(*asked(params, false).pack)) return nullptr;
   return (this->*known->answer)(params);
 }
 
@@ -235,9 +237,10 @@ void LanguageServer::publish_findings() {
   for (OpenDocument* document : documents_.dirty()) {
     const EditedPack& pack = documents_.pack_of(*document);
     Json findings = Json::array();
-    for (const TextFinding& finding : pack.findings())
-      findings.push_back(
-          diagnostic_json(pack, finding, knows_links_ ? options_->docs_url : std::string()));
+    if (is_of_oriel(pack))
+      for (const TextFinding& finding : pack.findings())
+        findings.push_back(
+            diagnostic_json(pack, finding, knows_links_ ? options_->docs_url : std::string()));
     document->is_dirty = false;
     publish(document->uri, document->version, std::move(findings));
   }
