@@ -2,6 +2,7 @@
 #include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/terminal/logging.h"
 #include "cli/view/page.h"
 #include "kernel/io/cityjson/carried_labels.h"
 #include "kernel/io/files/output_file.h"
@@ -17,6 +18,9 @@
 namespace oriel::cli {
 
 namespace {
+
+/// A page of more buildings opens slowly: the studio loads them as they are needed.
+constexpr std::size_t kMostOfAPage = 2000;
 
 struct ViewArguments : RunOptions, RulesChoice {
   std::string out;
@@ -107,6 +111,7 @@ ExitCode work(ViewArguments& arguments) {
     if (code == ExitCode::input) return code;
     refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
   }
+  const std::size_t shown = ids.size();
   if (!arguments.after.empty()) {
     std::vector<std::string> found;
     const ExitCode second =
@@ -116,6 +121,11 @@ ExitCode work(ViewArguments& arguments) {
       refuse(Code::E128, arguments.after, "has none of the buildings that are shown");
     code = graver(code, second);
   }
+  if (shown > kMostOfAPage)
+    run_log().info(
+        "{} buildings are many for one page, which opens slowly; `oriel studio {}` shows them from "
+        "a local server",
+        shown, fmt::join(arguments.inputs, " "));
   write_file(arguments.out, page_of(page.json()));
   return code;
 }
@@ -131,8 +141,9 @@ void add_view(CLI::App& app, Action& action) {
   add_rules_arguments(*command, *arguments);
   command->add_option("-o,--output", arguments->out, "HTML file to write, or - for stdout")
       ->required();
-  command->add_option("--after", arguments->after,
-                      "The same buildings, generalised: the page switches between the two");
+  command->add_option(
+      "--after", arguments->after,
+      "The same buildings, generalised: a line divides the picture into before and after");
   command->footer(
       "The page needs no other file and loads nothing; page.html#ID opens it at a feature.\n"
       "Example:\n  oriel view house.city.json -o house.html\n"

@@ -3,6 +3,10 @@
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/version.h"
 #include "oriel/explain.h"
+#include "oriel/rules.h"
+#include "studio/server/page_files.h"
+#include "studio/session/plain_sentence.h"
+#include "studio/session/storeys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,17 +24,15 @@
 
 namespace oriel::cli {
 
-// The files that make up a page, as they were when the command was built (embedded.cpp.in).
-std::string_view page_html();
-std::string_view page_script();
-std::string_view three_script();
-
 namespace {
 
 using nlohmann::ordered_json;
 
 /// A picture needs no more than millimetres.
 constexpr double kMillimetres = 1000;
+
+/// Of a relation that leads to more features the page says nothing: it would draw no line of it.
+constexpr std::size_t kMostRelated = 24;
 
 std::vector<std::string> text_lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -75,8 +77,11 @@ struct PageData::State {
   int row_number(const ExplanationRow& row);
   ordered_json vertices(const Building& building);
   ordered_json polygons(const Building& building, const PipelineResult& line);
-  ordered_json feature(const Explanation& explanation);
+  ordered_json relations(const PipelineResult& line, FeatureId feature);
+  ordered_json feature(const PipelineResult& line, const Explanation& explanation,
+                       FeatureId feature);
   ordered_json features(const PipelineResult& line);
+  ordered_json storeys(const Building& building, const PipelineResult& line);
   ordered_json polygons(const Building& building, const CarriedLabels& carried);
   ordered_json features(const std::string& building, const CarriedLabels& carried);
   void add(const Building& building, const PipelineResult& line, ordered_json features,
@@ -135,28 +140,54 @@ ordered_json PageData::State::polygons(const Building& building, const PipelineR
   return list;
 }
 
-ordered_json PageData::State::feature(const Explanation& explanation) {
+ordered_json PageData::State::relations(const PipelineResult& line, FeatureId feature) {
+  ordered_json list = ordered_json::array();
+  for (const VocabularyWord& relation : relation_words()) {
+    const auto others = line.description.graph.others(relation.name, feature);
+    if (others.empty() || others.size() > kMostRelated) continue;
+    ordered_json numbers = ordered_json::array();
+    for (const FeatureId other : others) numbers.push_back(other.value);
+    list.push_back({strings.number_of(std::string(relation.name)), std::move(numbers)});
+  }
+  return list;
+}
+
+ordered_json PageData::State::feature(const PipelineResult& line, const Explanation& explanation,
+                                      FeatureId feature) {
   ordered_json rules_of_it = ordered_json::array();
   for (const RuleReport& rule : explanation.rules) {
     ordered_json numbers = ordered_json::array();
     for (const ExplanationRow& row : rows_of(rule)) numbers.push_back(row_number(row));
     rules_of_it.push_back(std::move(numbers));
   }
-  ordered_json rounds = ordered_json::array();
-  for (const RoundReport& round : explanation.rounds)
-    rounds.push_back(strings.number_of(round.label.empty() ? "unknown" : round.label));
   const Verdict& verdict = explanation.verdict;
   if (!verdict.label.empty()) labels.insert(verdict.label);
-  return {{"id", explanation.feature},      {"name", explanation.name},
-          {"label", verdict.label},         {"rule", verdict.rule},
-          {"head", headline(explanation)},  {"rounds", rounds},
-          {"rules", std::move(rules_of_it)}};
+  const Feature& what = line.segmentation->features[feature.index()];
+  return {{"id", explanation.feature},
+          {"name", explanation.name},
+          {"kind", studio::kind_word(what.sense)},
+          {"parent", what.parent.value},
+          {"label", verdict.label},
+          {"rule", verdict.rule},
+          {"sentence", studio::plain_sentence(line, line.interpretation, feature)},
+          {"head", headline(explanation)},
+          {"rules", std::move(rules_of_it)},
+          {"relations", relations(line, feature)}};
 }
 
 ordered_json PageData::State::features(const PipelineResult& line) {
   ordered_json list = ordered_json::array();
   for (const Explanation& explanation : explain_features(line, *rules))
-    list.push_back(feature(explanation));
+    list.push_back(feature(line, explanation, FeatureId{static_cast<int>(list.size())}));
+  return list;
+}
+
+ordered_json PageData::State::storeys(const Building& building, const PipelineResult& line) {
+  ordered_json list = ordered_json::array();
+  if (!origin_m) origin_m = building.frame.origin_m;
+  for (const double floor_m : studio::storey_floors(building, line))
+    list.push_back(
+        std::llround(kMillimetres * (floor_m + building.frame.origin_m.z - origin_m->z)));
   return list;
 }
 
@@ -195,12 +226,15 @@ ordered_json PageData::State::features(const std::string& building, const Carrie
     list.push_back(
         {{"id", said.id},
          {"name", said.name},
+         {"kind", ""},
+         {"parent", -1},
          {"label", said.label},
          {"rule", said.rule},
+         {"sentence", said.label + ": so it is called in the file"},
          {"head", fmt::format("{} -> {} {:.2f} by {}, as the file says", said.id, said.label,
                               said.score, said.rule)},
-         {"rounds", ordered_json::array()},
-         {"rules", before == rules_before.end() ? ordered_json::array() : before->second}});
+         {"rules", before == rules_before.end() ? ordered_json::array() : before->second},
+         {"relations", ordered_json::array()}});
   }
   return list;
 }
@@ -216,9 +250,13 @@ void PageData::State::add(const Building& building, const PipelineResult& line,
                           ordered_json features, ordered_json polygons) {
   ordered_json issues = ordered_json::array();
   for (const Issue& issue : line.issues)
-    if (issue.severity != Severity::note) issues.push_back(strings.number_of(to_string(issue)));
+    if (issue.severity != Severity::note)
+      issues.push_back({{"code", to_string(issue.code)},
+                        {"severity", to_string(issue.severity)},
+                        {"sentence", issue.sentence}});
   ordered_json entry = {{"id", building.id}, {"issues", std::move(issues)}};
   entry["vertices_mm"] = vertices(building);
+  entry["storeys_mm"] = storeys(building, line);
   entry["features"] = std::move(features);
   entry["polygons"] = std::move(polygons);
   models.back()["buildings"].push_back(std::move(entry));
@@ -267,17 +305,11 @@ std::string PageData::json() const {
 }
 
 std::string page_of(const std::string& data) {
-  std::string page;
-  std::string_view rest = page_html();
-  const auto place = [&](std::string_view mark, std::string_view text) {
-    const std::size_t at = rest.find(mark);
-    page.append(rest.substr(0, at)).append(text);
-    rest.remove_prefix(at + mark.size());
-  };
-  place("{{data}}", data);
-  place("{{three}}", three_script());
-  place("{{page}}", page_script());
-  return page.append(rest);
+  static constexpr std::string_view kMark = "{{data}}";
+  const std::string_view page = studio::page_file("view.html");
+  const std::size_t at = page.find(kMark);
+  std::string whole(page.substr(0, at));
+  return whole.append(data).append(page.substr(at + kMark.size()));
 }
 
 }  // namespace oriel::cli

@@ -40,8 +40,8 @@ class PageData {
   std::unique_ptr<State> state_;
 };
 
-/// One HTML file that shows `data` (PageData::json) and loads nothing: page.html with the data and
-/// both scripts in their places.
+/// One HTML file that shows `data` (PageData::json) and loads nothing: the page of the studio
+/// without its editor (studio/page/view.html).
 std::string page_of(const std::string& data);
 
 }  // namespace oriel::cli

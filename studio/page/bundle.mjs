@@ -44,18 +44,22 @@ writeFileSync('dist/studio.css', studio.css + '\n');
 
 // Only this script and this style may run in the page of a file, whatever stands in its data.
 const view = await bundle('view');
-const kNotice = '/* Parts of it are three.js (MIT, Copyright 2010-2026 three.js authors) and three-mesh-bvh (MIT, Copyright 2018 Garrett Johnson). */';
-const script = `${kNotice}\n${view.ts.replaceAll('</script', '<\\/script')}`;
+const licencesOf = names => names.map(name => `${name}\n${licenceOf(name)}`).join('\n').replaceAll('--', '- -');
+const script = view.ts.replaceAll('</script', '<\\/script');
 const hashOf = text => `sha256-${createHash('sha256').update(text).digest('base64')}`;
-const parts = {'script-hash': hashOf(script), 'style-hash': hashOf(view.css), style: view.css, script, data: '{{data}}'};
+const parts = {'script-hash': hashOf(script), 'style-hash': hashOf(view.css), style: view.css, script, data: '{{data}}',
+  licences: licencesOf(['three', 'three-mesh-bvh'])};
 writeFileSync('dist/view.html', readFileSync('view.html', 'utf8').replace(/{{([a-z-]+)}}/g, (_, part) => parts[part]));
 
 let licences = 'The packages that are part of studio.js and view.html, with their licences.\n';
 for (const name of [...packages].sort()) {
-  const folder = path.join('node_modules', name);
-  const {version, license} = JSON.parse(readFileSync(path.join(folder, 'package.json'), 'utf8'));
-  const file = readdirSync(folder).find(entry => /^licen[cs]e/i.test(entry));
-  licences += `\n${'-'.repeat(80)}\n${name} ${version} (${license})\n\n`;
-  licences += file ? readFileSync(path.join(folder, file), 'utf8').trim() + '\n' : 'Its package has no licence file.\n';
+  const {version, license} = JSON.parse(readFileSync(path.join('node_modules', name, 'package.json'), 'utf8'));
+  licences += `\n${'-'.repeat(80)}\n${name} ${version} (${license})\n\n${licenceOf(name)}`;
 }
 writeFileSync('dist/licences.txt', licences);
+
+function licenceOf(name) {
+  const folder = path.join('node_modules', name);
+  const file = readdirSync(folder).find(entry => /^licen[cs]e/i.test(entry));
+  return file ? readFileSync(path.join(folder, file), 'utf8').trim() + '\n' : 'Its package has no licence file.\n';
+}

@@ -25,7 +25,8 @@ class ExplanationWriter {
   [[nodiscard]] StudioJson json() const {
     const Verdict& verdict = explanation_.verdict;
     const bool has_label = !verdict.label.empty();
-    return {{"sentence", plain_sentence(labelled_, feature_)},
+    return {{"sentence",
+             plain_sentence(labelled_.building->segmented, labelled_.interpretation, feature_)},
             {"name", explanation_.name},
             {"label", has_label ? StudioJson(verdict.label.text()) : StudioJson()},
             {"rule", has_label ? StudioJson(verdict.rule.text()) : StudioJson()},

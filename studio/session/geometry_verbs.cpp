@@ -4,6 +4,7 @@
 #include "studio/session/desk.h"
 #include "studio/session/pack_answer.h"
 #include "studio/session/plain_sentence.h"
+#include "studio/session/storeys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,28 +108,11 @@ StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* label
   return list;
 }
 
-/// Where storeys begin: the foot of the building, then half-way between the openings of a storey
-/// and those of the next one. Nothing for a building without storeys.
 StudioJson storeys_json(const OpenBuilding& open, const Vec3& origin_m) {
-  struct Reach {
-    double low = Box::kInfinity, high = -Box::kInfinity;
-  };
-  std::map<double, Reach> storeys;
-  const FeatureTable& table = open.segmented.description.table;
-  for (std::size_t i = 0; i < open.features.size(); ++i) {
-    const auto storey = table.number(FeatureId{static_cast<int>(i)}, Attribute::storey);
-    if (!storey) continue;
-    Reach& reach = storeys[*storey];
-    reach.low = std::min(reach.low, open.features[i].box.min.z);
-    reach.high = std::max(reach.high, open.features[i].box.max.z);
-  }
   StudioJson list = StudioJson::array();
-  double top = box_of(*open.building).min.z;
-  for (const auto& [number, reach] : storeys) {
-    const double begin = list.empty() ? top : (top + reach.low) / 2;
-    list.push_back(std::llround(kMillimetres * (begin - origin_m.z)));
-    top = reach.high;
-  }
+  for (const double floor_m : storey_floors(*open.building, open.segmented))
+    list.push_back(
+        std::llround(kMillimetres * (floor_m + open.building->frame.origin_m.z - origin_m.z)));
   return list;
 }
 

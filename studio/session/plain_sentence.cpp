@@ -21,15 +21,16 @@ constexpr double kFlat_m = 0.005;
 
 class SentenceOfFeature {
  public:
-  SentenceOfFeature(const LabelledFeatures& labelled, FeatureId feature)
-      : labelled_(labelled),
-        result_(labelled.building->segmented),
+  SentenceOfFeature(const PipelineResult& result, const Interpretation& interpretation,
+                    FeatureId feature)
+      : result_(result),
+        interpretation_(interpretation),
         table_(result_.description.table),
         feature_(feature),
         what_(result_.segmentation->features[feature.index()]) {}
 
   [[nodiscard]] std::string text() const {
-    const std::string& label = labelled_.interpretation.verdicts[feature_.index()].label.text();
+    const std::string& label = label_of(feature_);
     std::string text = fmt::format("{}: {} {} {}", label.empty() ? "unknown" : label, size(),
                                    kind_word(what_.sense), place());
     for (const std::string& part : {depth(), height(), storey(), company()})
@@ -38,6 +39,10 @@ class SentenceOfFeature {
   }
 
  private:
+  [[nodiscard]] const std::string& label_of(FeatureId feature) const {
+    return interpretation_.verdicts[feature.index()].label.text();
+  }
+
   [[nodiscard]] std::optional<double> number(Attribute attribute) const {
     return table_.number(feature_, attribute);
   }
@@ -116,8 +121,7 @@ class SentenceOfFeature {
     const auto beside = graph.others("same_facade", feature_);
     std::size_t count = 1;
     for (const FeatureId other : graph.others("same_storey", feature_))
-      if (std::ranges::binary_search(beside, other) &&
-          labelled_.classes[other.index()] == labelled_.classes[feature_.index()])
+      if (std::ranges::binary_search(beside, other) && label_of(other) == label_of(feature_))
         ++count;
     if (count < 2) return "";
     static constexpr std::array<const char*, 13> kWords{"",     "",       "two",   "three", "four",
@@ -127,8 +131,8 @@ class SentenceOfFeature {
            (count < kWords.size() ? std::string(kWords[count]) : std::to_string(count));
   }
 
-  const LabelledFeatures& labelled_;
   const PipelineResult& result_;
+  const Interpretation& interpretation_;
   const FeatureTable& table_;
   FeatureId feature_;
   const Feature& what_;
@@ -150,8 +154,9 @@ std::string_view kind_word(Sense sense) {
   return {};
 }
 
-std::string plain_sentence(const LabelledFeatures& labelled, FeatureId feature) {
-  return SentenceOfFeature(labelled, feature).text();
+std::string plain_sentence(const PipelineResult& result, const Interpretation& interpretation,
+                           FeatureId feature) {
+  return SentenceOfFeature(result, interpretation, feature).text();
 }
 
 }  // namespace oriel::studio

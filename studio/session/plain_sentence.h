@@ -1,8 +1,9 @@
 #pragma once
 
 #include "kernel/base/ids.h"
+#include "kernel/model/interpretation.h"
 #include "kernel/model/segmentation.h"
-#include "studio/session/labelled_buildings.h"
+#include "oriel/result.h"
 
 #include <string>
 #include <string_view>
@@ -14,7 +15,9 @@ namespace oriel::studio {
 std::string_view kind_word(Sense sense);
 
 /// A feature in one plain sentence, from its attributes: "window: a 1.1 × 1.4 m hole in a wall,
-/// 0.9 m above the ground, one of a row of four". What is not known is left out.
-std::string plain_sentence(const LabelledFeatures& labelled, FeatureId feature);
+/// 0.9 m above the ground, one of a row of four". What is not known is left out. `result` is of the
+/// building's segmentation, `interpretation` what a pack said of it.
+std::string plain_sentence(const PipelineResult& result, const Interpretation& interpretation,
+                           FeatureId feature);
 
 }  // namespace oriel::studio

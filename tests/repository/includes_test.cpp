@@ -41,7 +41,10 @@ const std::map<std::string, std::string> kAllowed{
     {"kernel/model/version.h", "--version, status files and pages"},
     {"studio/server/browser.h", "the studio's page is opened"},
     {"studio/lsp/language_server.h", "rules lsp"},
+    {"studio/server/page_files.h", "view writes the studio's page without its editor"},
     {"studio/server/serve.h", "the studio"},
+    {"studio/session/plain_sentence.h", "view says the studio's sentences"},
+    {"studio/session/storeys.h", "view cuts storeys open as the studio does"},
 };
 
 /// What the sessions of the studio include besides the front door, and why.

@@ -9,7 +9,7 @@ import {words} from './strings';
 type Row = [indent: number, mark: number, found: number, asked: number, place: number];
 
 interface FileFeature {
-  id: string; name: string; kind: string; parent: number; label: number; rule: string; sentence: string; head: string;
+  id: string; name: string; kind: string; parent: number; label: string; rule: string; sentence: string; head: string;
   rules: number[][]; relations: [name: number, features: number[]][];
 }
 interface FilePolygon { source: number; rings: number[][]; owners: number[]; surface: string; why: number[] }
@@ -44,10 +44,10 @@ export class FileSource implements Source {
       if (number === undefined) return [];
       const known = this.features[number]!;
       const place = new Map(known.map(({id}, i) => [id, i]));
-      const own = known.map(({label}) => label);
+      const own = known.map(({label}) => this.classOf(label));
       const numbers = building.features.map(feature => {
         const at = place.get(feature.id) ?? known.push(feature) - 1;
-        own[at] = feature.label;
+        own[at] = this.classOf(feature.label);
         return at;
       });
       labels.set(number, own);
@@ -85,7 +85,7 @@ export class FileSource implements Source {
   }
 
   async pack(): Promise<PackAnswer> {
-    const labels = Object.fromEntries(this.before.map(({features}, number) => [number, features.map(({label}) => label)]));
+    const labels = Object.fromEntries(this.before.map(({features}, number) => [number, features.map(({label}) => this.classOf(label))]));
     const all = Object.values(labels).flat();
     return {
       version: 1, is_good: true, findings: [], params: [], changed: [], changed_count: 0, doubtful: [], score: null, ms: 0, labels,
@@ -101,7 +101,7 @@ export class FileSource implements Source {
     const rules = found.rules.map(rows => this.reasonOf(rows));
     rules.sort((a, b) => Number(b.rule === found.rule) - Number(a.rule === found.rule) || Number(b.holds) - Number(a.holds));
     return {
-      sentence: found.sentence, label: this.data.labels[found.label] ?? null, rule: found.rule || null, rule_line: null, why: rules, why_not: [],
+      sentence: found.sentence, label: found.label || null, rule: found.rule || null, rule_line: null, why: rules, why_not: [],
       flip: null, relations: found.relations.map(([name, features]) => ({name: this.text(name), features})), attributes: [], correction: null,
       head: found.head
     };
@@ -114,6 +114,8 @@ export class FileSource implements Source {
     return {parts, findings: []};
   }
 
+  /** -1 without a label. */
+  private classOf(label: string): number { return this.data.labels.indexOf(label); }
   private text(i: number): string { return this.data.strings[i] ?? ''; }
 
   /** The first row is that of the rule: its id, whether it holds, its label. */

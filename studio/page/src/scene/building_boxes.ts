@@ -13,9 +13,9 @@ export class BuildingBoxes {
   readonly bounds = new Box3();
   private placed: PlacedBox[] = [];
   private mesh: InstancedMesh | null = null;
-  private away: ReadonlySet<number> = new Set();
+  private away: {has(building: number): boolean} = new Set();
 
-  set(boxes: PlacedBox[], away: ReadonlySet<number>): void {
+  set(boxes: PlacedBox[], away: {has(building: number): boolean}): void {
     this.placed = boxes;
     this.bounds.makeEmpty();
     for (const box of boxes) this.bounds.expandByPoint(new Vector3(...box.from)).expandByPoint(new Vector3(...box.to));
@@ -31,8 +31,14 @@ export class BuildingBoxes {
     this.leaveOut(away);
   }
 
+  /** The corners of the boxes of all buildings. */
+  corners(): Vector3[] {
+    return this.placed.flatMap(({from, to}) => [0, 1, 2, 3, 4, 5, 6, 7].map(i =>
+      new Vector3(i & 1 ? to[0] : from[0], i & 2 ? to[1] : from[1], i & 4 ? to[2] : from[2])));
+  }
+
   /** Those that are drawn as they are leave their boxes. */
-  leaveOut(away: ReadonlySet<number>): void {
+  leaveOut(away: {has(building: number): boolean}): void {
     this.away = away;
     if (!this.mesh) return;
     const matrix = new Matrix4();

@@ -8,7 +8,7 @@ import type {Part} from '../source';
 import type {Selection} from '../store';
 import {BuildingBoxes, type PlacedBox} from './building_boxes';
 import {Camera} from './camera';
-import {bvhOf, ChunkBuilder, type Chunk, type PolygonRef} from './chunk';
+import {bvhOf, ChunkBuilder, leaveOutSmall, type Chunk, type PolygonRef} from './chunk';
 import {makeExtraLineMaterial, makeMaterials, makeUniforms} from './materials';
 import {isMeant, kNothing, Painter, shownFeature, type Paint} from './paint';
 import {rgb} from './palette';
@@ -64,7 +64,7 @@ export class BuildingScene {
     this.scene.add(this.chunkGroup, this.boxes.object);
     this.camera = new Camera(this.element, () => this.requestRender());
     try {
-      this.renderer = new WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
+      this.renderer = new WebGLRenderer({antialias: true});
     } catch { /* said by the shell */ }
     this.isDrawing = this.renderer !== null;
     if (!this.renderer) return;
@@ -78,25 +78,27 @@ export class BuildingScene {
 
   /** Draws these buildings instead of those that were drawn; those that are the same objects are kept. */
   setBuildings(buildings: SceneBuilding[]): void {
-    const isKept = [...this.buildings].every(([number, old]) => buildings.some(b => b.number === number && b === old));
+    const given = new Map(buildings.map(building => [building.number, building]));
+    const isKept = [...this.buildings].every(([number, old]) => given.get(number) === old);
     const added = isKept ? buildings.filter(b => !this.buildings.has(b.number)) : buildings;
+    if (isKept && added.length === 0) return;
     const chunks = Math.ceil(added.length / kChunkBuildings) + (isKept ? this.chunks.length : 0);
-    this.buildings = new Map(buildings.map(b => [b.number, b]));
+    this.buildings = given;
     if (!isKept || chunks > kMostChunks) this.rebuild(buildings);
     else this.append(added, kChunkBuildings);
     this.box = new Box3();
     for (const chunk of this.chunks) {
-      chunk.mesh.geometry.computeBoundingBox();
+      if (!chunk.mesh.geometry.boundingBox) chunk.mesh.geometry.computeBoundingBox();
       if (chunk.triangles > 0) this.box.union(chunk.mesh.geometry.boundingBox!);
     }
-    this.boxes.leaveOut(new Set(this.buildings.keys()));
+    this.boxes.leaveOut(this.buildings);
     this.painter.paint(this.paint);
     this.requestRender();
   }
 
   /** Boxes for buildings whose geometry has not come. */
   setBoxes(boxes: PlacedBox[]): void {
-    this.boxes.set(boxes, new Set(this.buildings.keys()));
+    this.boxes.set(boxes, this.buildings);
     this.requestRender();
   }
 
@@ -154,9 +156,21 @@ export class BuildingScene {
     return all.union(this.boxes.bounds);
   }
 
+  /** The corners of all that is drawn; of very many buildings those of their boxes. */
+  corners(): Vector3[] {
+    const kMost = 20000;
+    const buildings = [...this.buildings.values()];
+    const vertices = buildings.reduce((sum, {vertices_mm}) => sum + vertices_mm.length / 3, 0);
+    if (vertices === 0 || vertices > kMost) return this.boxes.corners();
+    const points: Vector3[] = [];
+    for (const {vertices_mm: mm} of buildings)
+      for (let i = 0; i + 2 < mm.length; i += 3) points.push(new Vector3(mm[i]! / 1000, mm[i + 1]! / 1000, mm[i + 2]! / 1000));
+    return points;
+  }
+
   /** To a selection, from outside and a little above; to everything if there is none. */
   fly(selection: Selection | null): void {
-    if (!selection) return this.camera.flyTo(this.bounds, null);
+    if (!selection) return this.camera.flyTo(this.corners(), null);
     this.flyToRefs(this.refs.filter(ref => ref.building === selection.building &&
       (selection.feature === undefined && selection.polygon === undefined || isMeant(ref, selection))));
   }
@@ -167,17 +181,18 @@ export class BuildingScene {
   }
 
   private flyToRefs(refs: PolygonRef[]): void {
-    const box = new Box3();
+    const all: Vector3[] = [];
     const outside = new Vector3();
     for (const ref of refs) {
       const {vertices_mm: mm, polygons} = this.buildings.get(ref.building)!;
       const ring = polygons[ref.polygon]!.rings[0] ?? [];
       const points = ring.map(v => new Vector3(mm[3 * v]! / 1000, mm[3 * v + 1]! / 1000, mm[3 * v + 2]! / 1000));
-      for (const point of points) box.expandByPoint(point);
+      all.push(...points);
       for (let i = 2; i < points.length; ++i)
         outside.add(points[i - 1]!.clone().sub(points[0]!).cross(points[i]!.clone().sub(points[0]!)));
     }
-    if (!box.isEmpty()) this.camera.flyTo(box, outside.length() > 0.05 ? outside.normalize() : null);
+    const isPart = refs.length > 0 && refs.length < this.refs.length / 2;
+    this.camera.flyTo(all, isPart && outside.length() > 0.05 ? outside.normalize() : null);
   }
 
   /** Looks from where the other looks, and the other from where this one does. */
@@ -288,9 +303,16 @@ export class BuildingScene {
     // A pattern's period is some ten pixels where the camera looks at.
     const height = this.element.clientHeight;
     this.uniforms.period.value = 9 * this.camera.distance * 0.73 / height;
+    const pixelAt1m = 0.73 / (height * this.renderer.getPixelRatio());
+    for (const chunk of this.chunks) leaveOutSmall(chunk, pixelAt1m * this.distanceTo(chunk));
     this.renderer.render(this.scene, this.camera.three);
     this.host.dataset['drawCalls'] = String(this.drawCalls);
     for (const call of this.onRender) call();
+  }
+
+  /** From the camera to the nearest place of a chunk, 0 within it. */
+  private distanceTo(chunk: Chunk): number {
+    return chunk.triangles > 0 ? chunk.mesh.geometry.boundingBox!.distanceToPoint(this.camera.three.position) : 0;
   }
 
   private resize(): void {

@@ -1,5 +1,5 @@
 // Where the picture is seen from: turned, moved, zoomed to the cursor by mouse, touch or keys; two may be tied together.
-import {Box3, MOUSE, PerspectiveCamera, Spherical, Vector3} from 'three';
+import {Box2, Box3, MOUSE, PerspectiveCamera, Spherical, Vector2, Vector3} from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 const kFieldDeg = 40;
@@ -49,32 +49,43 @@ export class Camera {
     this.three.updateProjectionMatrix();
   }
 
-  /** Looks at a box so that it fills the picture, from `outside` and a little above, or from where it looks now. */
-  flyTo(box: Box3, outside: Vector3 | null): void {
-    if (box.isEmpty()) return;
+  /** Looks at points so that they fill the picture, from `outside` and a little above, or as it first looks. */
+  flyTo(points: Vector3[], outside: Vector3 | null): void {
     const direction = outside ? outside.clone().add(new Vector3(0.25, -0.25, 0.4)).normalize() : kFirstDirection;
-    this.look(box, direction, outside ? kContext : 1);
+    this.look(points, direction, outside ? kContext : 1);
   }
 
-  look(box: Box3, direction: Vector3, around = 1): void {
-    const centre = box.getCenter(new Vector3());
+  /** The picture is first centred on the box of the points, then twice on what is seen of them. */
+  look(points: Vector3[], direction: Vector3, around = 1): void {
+    if (points.length === 0) return;
+    const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
     const tall = Math.tan(kFieldDeg * Math.PI / 360);
     const wide = tall * this.three.aspect;
     const right = new Vector3().crossVectors(this.three.up, direction).normalize();
     const up = new Vector3().crossVectors(direction, right);
-    let distance = kLeastRadiusM / tall;
-    for (let i = 0; i < 8; ++i) {
-      const corner = new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z)
-        .sub(centre).multiplyScalar(around * kMargin);
-      distance = Math.max(distance, corner.dot(direction) + Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / tall));
+    let distance = 0;
+    for (let round = 0; round < 3; ++round) {
+      distance = kLeastRadiusM / tall;
+      for (const point of points) {
+        const p = point.clone().sub(centre).multiplyScalar(around * kMargin);
+        distance = Math.max(distance, p.dot(direction) + Math.max(Math.abs(p.dot(right)) / wide, Math.abs(p.dot(up)) / tall));
+      }
+      const seen = new Box2();
+      for (const point of points) {
+        const p = point.clone().sub(centre);
+        const depth = Math.max(0.01, distance - p.dot(direction));
+        seen.expandByPoint(new Vector2(p.dot(right) / depth, p.dot(up) / depth));
+      }
+      const middle = seen.getCenter(new Vector2()).multiplyScalar(distance);
+      if (round < 2) centre.addScaledVector(right, middle.x).addScaledVector(up, middle.y);
     }
     this.goTo(centre.clone().addScaledVector(direction, distance), centre);
   }
 
   /** From the front, the side, above: the numbers 1, 2, 3. */
-  lookAlong(axis: 'front' | 'side' | 'above', box: Box3): void {
+  lookAlong(axis: 'front' | 'side' | 'above', points: Vector3[]): void {
     const direction = {front: new Vector3(0, -1, 0.02), side: new Vector3(1, 0, 0.02), above: new Vector3(0, -0.001, 1)}[axis];
-    if (!box.isEmpty()) this.look(box, direction.normalize());
+    this.look(points, direction.normalize());
   }
 
   private goTo(position: Vector3, target: Vector3): void {

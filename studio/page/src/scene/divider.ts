@@ -34,6 +34,8 @@ export class Divider {
     if (isShown) this.paint();
   }
 
+  hide(): void { this.isShown = false; }
+
   /** Where the line is, from 0 (all after) to 1 (all before). */
   get place(): number { return this.share; }
   set place(share: number) {

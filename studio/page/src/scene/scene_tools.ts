@@ -55,8 +55,8 @@ export function sceneTools(app: App, scene: BuildingScene): HTMLElement {
   const keys = new Map<string, () => void>([
     ['f', fit], ['h', () => toggle('shows_hidden_lines')], ['m', () => toggle('is_measuring')], ['r', () => toggle('shows_relations')],
     ['t', () => toggle('shows_truth')], ['x', () => cutButton.click()],
-    ['1', () => scene.camera.lookAlong('front', scene.bounds)], ['2', () => scene.camera.lookAlong('side', scene.bounds)],
-    ['3', () => scene.camera.lookAlong('above', scene.bounds)],
+    ['1', () => scene.camera.lookAlong('front', scene.corners())], ['2', () => scene.camera.lookAlong('side', scene.corners())],
+    ['3', () => scene.camera.lookAlong('above', scene.corners())],
     ['n', () => nextOf(app, 'unknown', 1)], ['N', () => nextOf(app, 'unknown', -1)], ['d', () => nextOf(app, 'doubtful', 1)],
     ['D', () => nextOf(app, 'doubtful', -1)], ['w', () => nextOf(app, 'wrong', 1)], ['W', () => nextOf(app, 'wrong', -1)],
     ['Escape', () => store.value.is_measuring ? toggle('is_measuring') : app.select(null)]
