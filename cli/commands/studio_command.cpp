@@ -11,12 +11,15 @@
 #include "studio/server/serve.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -49,6 +52,14 @@ std::vector<std::string> folders_of(const StudioArguments& arguments) {
   return folders;
 }
 
+[[noreturn]] void refuse_input(Code code, const std::string& file, std::string sentence) {
+  Issue issue;
+  issue.code = code;
+  issue.sentence = std::move(sentence);
+  issue.place.file = file;
+  throw InputError(std::move(issue));
+}
+
 studio::SessionOptions session_options(const StudioArguments& arguments) {
   studio::SessionOptions options;
   options.files = arguments.inputs;
@@ -63,12 +74,33 @@ studio::SessionOptions session_options(const StudioArguments& arguments) {
   return options;
 }
 
+/// A file that cannot be read is said at once, before there is a page that says so.
+void check_readable(const std::string& path) {
+  errno = 0;
+  if (std::ifstream(path).is_open()) return;
+  refuse_input(Code::E101, path,
+               fmt::format("cannot be read: {}", std::generic_category().message(errno)));
+}
+
+/// A pack that does not exist yet is a file with the name of one; else a built-in pack was meant.
+void check_pack_name(const std::string& rules) {
+  std::error_code problem;
+  if (embedded_pack(rules) || fs::exists(rules, problem)) return;
+  const std::string ending = fs::path(rules).extension().string();
+  if (ending == ".yaml" || ending == ".yml") return;
+  const auto loaded = load_pack_file(rules);
+  throw CLI::ValidationError(
+      "--rules", loaded.issues.empty() ? "no such pack" : loaded.issues.front().sentence);
+}
+
 void check_inputs(const StudioArguments& arguments) {
   for (const std::string& input : arguments.inputs) {
     if (input == "-")
       throw CLI::ValidationError("input", "a studio reads files, not stdin: save it to a file");
     refuse_folder(input);
+    check_readable(input);
   }
+  check_pack_name(arguments.rules);
   NamedFiles names;
   names.add(arguments);
   names.add_input("--rules", arguments.rules);

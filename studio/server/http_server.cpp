@@ -31,7 +31,8 @@ constexpr std::string_view kMissingPage =
 /// page's nonce.
 std::string policy(const std::string& nonce) {
   return fmt::format(
-      "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{}'; connect-src 'self'; "
+      "default-src 'none'; script-src 'self' 'nonce-{0}'; style-src 'self' 'nonce-{0}'; "
+      "connect-src 'self'; "
       "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
       nonce);
 }
@@ -148,7 +149,8 @@ class HttpServer::Inside : public httplib::Server {
       if (refusal->status == 405)
         response.set_header("Allow", verb_of(head.path) ? "POST" : "GET, HEAD");
       // The body is read first (give_answer): a connection that ends unread may lose the answer.
-      if (head.method == "POST" && verb_of(head.path) && refusal->status != 411) return false;
+      const bool has_end = head.content_length && !head.has_transfer_encoding;
+      if (head.method == "POST" && verb_of(head.path) && has_end) return false;
       set(response, std::move(*refusal));
       return true;
     }
@@ -157,7 +159,7 @@ class HttpServer::Inside : public httplib::Server {
     std::string text(page_file(file));
     if (file == "page.html") {
       if (text.empty()) text = kMissingPage;
-      text = with_all(with_all(std::move(text), "@TOKEN@", served_.token), "@NONCE@", nonce);
+      text = with_all(std::move(text), "@NONCE@", nonce);
     }
     if (text.empty())
       set(response, error_reply(404, "this program was built without that part of the page"));

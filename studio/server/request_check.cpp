@@ -91,7 +91,8 @@ std::optional<Reply> refusal_of(const RequestHead& request, const ServedAt& serv
   if (is_file ? !is_read : request.method != "POST")
     return error_reply(405,
                        is_file ? "a file of the page is only read" : "a verb is asked by POST");
-  if (!request.token || !is_same_token(served.token, *request.token))
+  const bool is_open = is_file && request.path != "/";
+  if (!is_open && (!request.token || !is_same_token(served.token, *request.token)))
     return error_reply(
         403, "the token is missing or wrong: open the address that oriel studio has printed");
   if (request.has_range) return error_reply(400, "parts of an answer cannot be had");

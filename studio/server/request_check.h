@@ -44,7 +44,8 @@ std::string_view file_of(std::string_view path);
 /// 2. Origin is there and not ours, or Sec-Fetch-Site says that another site asks: 403.
 /// 3. The path is neither a file of the page nor a verb: 404.
 /// 4. The method is not GET or HEAD for a file, POST for a verb: 405.
-/// 5. The token is missing or wrong: 403.
+/// 5. The token is missing or wrong: 403. Scripts and styles are parts of the program and need
+/// none.
 /// 6. A range of bytes: 400. An encoding: 415.
 /// 7. Of a verb: no application/json: 415; no length: 411; longer than kMostBodyBytes: 413.
 std::optional<Reply> refusal_of(const RequestHead& request, const ServedAt& served);

@@ -22,7 +22,7 @@ namespace oriel::studio {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 /// So many workers that end so quickly one after the other, and nothing to blame: the next would
 /// end, too.
@@ -70,7 +70,8 @@ class BlockedSignals {
 };
 
 /// Ctrl-C goes to the whole group of processes: the parent asks the worker to end.
-[[noreturn]] void be_studio_worker(const Work& work, SharedWork& log, bool is_careful) noexcept {
+[[noreturn]] void be_studio_worker(const StudioWork& work, SharedWork& log,
+                                   bool is_careful) noexcept {
   for (const int signal : {SIGINT, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
   log.mark_faults();
   try {
@@ -85,7 +86,8 @@ class BlockedSignals {
 /// A worker that was started, and ends with this.
 class StudioWorker {
  public:
-  StudioWorker(const Work& work, SharedWork& log, bool is_careful, const BlockedSignals& signals) {
+  StudioWorker(const StudioWork& work, SharedWork& log, bool is_careful,
+               const BlockedSignals& signals) {
     const pid_t parent = ::getpid();
     process_ = ::fork();
     if (process_ < 0) throw std::system_error(errno, std::generic_category(), "no worker");
@@ -111,8 +113,8 @@ class StudioWorker {
 
   void ask_to_end(const BlockedSignals& signals) {
     ::kill(process_, SIGTERM);
-    const auto until = Clock::now() + kPatience;
-    for (int status = 0; !has_ended(status) && Clock::now() < until;)
+    const auto until = SteadyClock::now() + kPatience;
+    for (int status = 0; !has_ended(status) && SteadyClock::now() < until;)
       if (signals.wait(std::chrono::seconds(1)) == 0) continue;
   }
 
@@ -154,19 +156,19 @@ class WorkerFaults {
   }
 
   bool are_too_many() {
-    times_.push_back(Clock::now());
+    times_.push_back(SteadyClock::now());
     if (times_.size() > kMostFaults) times_.pop_front();
     return times_.size() == kMostFaults && times_.back() - times_.front() < kShortWhile;
   }
 
   SharedWork* work_;
   bool is_careful_ = false;
-  std::deque<Clock::time_point> times_;
+  std::deque<SteadyClock::time_point> times_;
 };
 
 }  // namespace
 
-Ending supervise(const Work& work) {
+Ending supervise(const StudioWork& work) {
   const BlockedSignals signals;
   SharedWork log;
   WorkerFaults faults(log);

@@ -8,7 +8,7 @@ namespace oriel::studio {
 
 /// What runs in a worker, until the process ends. `is_careful`: one thing after the other, since it
 /// is not known which of several ended the last worker.
-using Work = std::function<void(WorkLog& log, bool is_careful)>;
+using StudioWork = std::function<void(WorkLog& log, bool is_careful)>;
 
 enum class Ending {
   /// SIGINT, SIGTERM or SIGHUP.
@@ -22,6 +22,6 @@ enum class Ending {
 /// log "studio". Returns when it is asked to end by a signal, or starting again is no use; the
 /// worker has ended then. If the supervisor is killed, its worker ends, too. The calling process
 /// has one thread. Throws std::system_error if the system gives no process.
-Ending supervise(const Work& work);
+Ending supervise(const StudioWork& work);
 
 }  // namespace oriel::studio
