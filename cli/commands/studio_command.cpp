@@ -82,15 +82,13 @@ void check_readable(const std::string& path) {
                fmt::format("cannot be read: {}", std::generic_category().message(errno)));
 }
 
-/// A pack that does not exist yet is a file with the name of one; else a built-in pack was meant.
-void check_pack_name(const std::string& rules) {
+/// A pack that does not exist yet is a file with the name of one; else a pack that is built in was
+/// meant.
+bool may_be_pack(const std::string& rules) {
   std::error_code problem;
-  if (embedded_pack(rules) || fs::exists(rules, problem)) return;
   const std::string ending = fs::path(rules).extension().string();
-  if (ending == ".yaml" || ending == ".yml") return;
-  const auto loaded = load_pack_file(rules);
-  throw CLI::ValidationError(
-      "--rules", loaded.issues.empty() ? "no such pack" : loaded.issues.front().sentence);
+  return embedded_pack(rules) || fs::exists(rules, problem) || ending == ".yaml" ||
+         ending == ".yml";
 }
 
 void check_inputs(const StudioArguments& arguments) {
@@ -100,7 +98,6 @@ void check_inputs(const StudioArguments& arguments) {
     refuse_folder(input);
     check_readable(input);
   }
-  check_pack_name(arguments.rules);
   NamedFiles names;
   names.add(arguments);
   names.add_input("--rules", arguments.rules);
@@ -122,6 +119,7 @@ ExitCode work(StudioArguments& arguments) {
   settle_inputs(arguments, report);
   arguments.truth = truth_files(arguments.truth);
   check_inputs(arguments);
+  if (!may_be_pack(arguments.rules) && !load_pack(arguments.rules, report)) return ExitCode::rules;
   studio::ServeOptions options;
   options.port = arguments.port;
   options.begun = [&](const std::string& address) { say_address(arguments, address); };
