@@ -4,6 +4,12 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 examples/install_packages.sh dpkg-dev file help2man lintian
+# Pages are tested in a browser: what is there already, from Debian or elsewhere, is taken; without one these tests are skipped.
+browser=()
+for program in chromium node npm; do command -v $program >/dev/null || browser+=("$program"); done
+if [ ${#browser[@]} -gt 0 ]; then
+  examples/install_packages.sh "${browser[@]/#node/nodejs}" || echo "no ${browser[*]}: tests in a browser are skipped"
+fi
 
 echo "== format"
 find bench cli examples generalise interpret kernel oriel python studio tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
