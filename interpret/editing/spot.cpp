@@ -46,15 +46,22 @@ std::size_t begin_of_section(std::string_view text, std::size_t offset) {
   return line;
 }
 
-/// The lines from `from` that the one at `offset` is below, one in each level, and that line up to
-/// `offset`.
-std::string lines_above(std::string_view text, std::size_t from, std::size_t offset) {
+/// What stands above a place, from the begin of its section on.
+struct LinesAbove {
+  /// The lines that the one at the place is below, one in each level, and that line up to it.
+  std::string levels;
+  /// The first of them, then all from the second on: the entry of the section that the place is in.
+  std::string entry;
+};
+
+LinesAbove lines_above(std::string_view text, std::size_t from, std::size_t offset) {
   std::size_t line = begin_of_line(text, offset);
-  std::string_view last = text.substr(line, offset - line);
-  std::string above(last);
+  const std::string_view last = text.substr(line, offset - line);
+  LinesAbove above{std::string(last), {}};
+  std::size_t entry = line;
   std::size_t column = column_of_content(last);
   bool is_of_list = is_item(last);
-  while (line > from && column > 0) {
+  while (line > from && (column > 0 || is_of_list)) {
     const std::size_t end = line - 1;
     line = begin_of_line(text, end);
     const std::string_view one = text.substr(line, end - line);
@@ -62,10 +69,13 @@ std::string lines_above(std::string_view text, std::size_t from, std::size_t off
     const std::size_t at = column_of_content(one);
     const bool is_above = at < column || (at == column && is_of_list && !is_item(one));
     if (!is_above) continue;
-    above = std::string(one) + "\n" + above;
+    above.levels = std::string(one) + "\n" + above.levels;
+    above.entry = std::string(one) + "\n" + std::string(text.substr(entry, offset - entry));
+    entry = line;
     column = at;
     is_of_list = is_item(one);
   }
+  if (above.entry.empty()) above.entry = text.substr(from, offset - from);
   return above;
 }
 
@@ -98,22 +108,36 @@ std::vector<std::string> siblings_of(const YamlNode& root, const YamlPath& path)
   return keys;
 }
 
-/// The keys in the lines after `offset` that begin in the column of the one that is written.
-void add_siblings_below(std::string_view text, std::size_t offset, WritingSpot& spot) {
-  const std::size_t line = begin_of_line(text, spot.begin);
+/// Adds the key in the line if it begins in that column. False for a line that ends the map.
+bool add_sibling(std::string_view line, std::size_t column, std::vector<std::string>& keys) {
+  if (says_nothing(line)) return true;
+  const std::size_t content = std::min(line.find_first_not_of(" -"), line.size());
+  if (column_of_content(line) < column && content != column) return false;
+  const std::string_view key = first_word(line.substr(content));
+  if (content == column && !key.empty()) keys.emplace_back(key);
+  // `- id: a` is the first line of its map.
+  return column_of_content(line) >= column;
+}
+
+/// The keys in the lines around that begin in the column of the one that is written.
+void add_siblings_around(std::string_view text, std::size_t offset, WritingSpot& spot) {
+  std::size_t line = begin_of_line(text, spot.begin);
   const std::size_t column = spot.begin - line;
-  const bool is_first = text.substr(line, column).find_first_not_of(" -") == std::string_view::npos;
-  if (!is_first) return;
+  const std::string_view before = text.substr(line, column);
+  if (before.find_first_not_of(" -") != std::string_view::npos) return;
+  bool goes_on = before.find('-') == std::string_view::npos;
+  while (goes_on && line > 0) {
+    const std::size_t end = line - 1;
+    line = begin_of_line(text, end);
+    goes_on = add_sibling(text.substr(line, end - line), column, spot.siblings);
+  }
   std::size_t at = text.find('\n', offset);
   while (at != std::string_view::npos && at + 1 < text.size()) {
     const std::size_t begin = at + 1;
     at = text.find('\n', begin);
     const std::string_view below = text.substr(begin, at - begin);
-    if (says_nothing(below)) continue;
-    const std::size_t content = column_of_content(below);
-    if (content < column) return;
-    const std::string_view key = first_word(below.substr(content));
-    if (content == column && !key.empty()) spot.siblings.emplace_back(key);
+    const bool is_next_item = is_item(below) && column_of_content(below) < column;
+    if (is_next_item || !add_sibling(below, column, spot.siblings)) return;
   }
 }
 
@@ -136,7 +160,7 @@ std::optional<WritingSpot> spot_after(const std::string& begin, const OpenEnds& 
   if (!as_key) return spot;
   spot.siblings = siblings_of(*tree, spot.path);
   spot.path.back().key = spot.written;
-  add_siblings_below(text, offset, spot);
+  add_siblings_around(text, offset, spot);
   return spot;
 }
 
@@ -145,23 +169,18 @@ std::optional<WritingSpot> spot_after(const std::string& begin, const OpenEnds& 
 std::vector<WritingSpot> spots_at(std::string_view text, std::size_t offset) {
   offset = std::min(offset, text.size());
   const std::size_t from = begin_of_section(text, offset);
+  const LinesAbove above = lines_above(text, from, offset);
   std::vector<WritingSpot> spots;
-  for (const std::string& begin :
-       {std::string(text.substr(from, offset - from)), lines_above(text, from, offset)}) {
-    const OpenEnds ends = open_ends_of(begin);
-    if (ends.is_comment || ends.is_literal) return spots;
+  for (const std::string* begin : {&above.entry, &above.levels}) {
+    const OpenEnds ends = open_ends_of(*begin);
+    if (ends.is_comment || ends.is_literal) break;
     for (const bool as_key : {true, false}) {
       if (as_key && ends.is_value) continue;
-      if (auto spot = spot_after(begin, ends, as_key, text, offset))
+      if (auto spot = spot_after(*begin, ends, as_key, text, offset))
         spots.push_back(std::move(*spot));
     }
     if (!spots.empty()) break;
   }
-  const bool is_of_top = !spots.empty() && spots.front().is_key && spots.front().path.size() == 1;
-  if (is_of_top)
-    for (std::size_t line = 0; line < from; line = std::min(text.find('\n', line), text.size()) + 1)
-      if (text[line] >= 'a' && text[line] <= 'z')
-        spots.front().siblings.emplace_back(first_word(text.substr(line)));
   return spots;
 }
 
