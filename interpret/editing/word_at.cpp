@@ -23,8 +23,12 @@ bool is_around(SourceSpan span, std::size_t offset) {
 /// Of two words that meet at `offset` the one that begins there.
 std::optional<PackWord> find_around(const std::vector<PackWord>& words, std::size_t offset) {
   std::optional<PackWord> found;
-  for (const PackWord& word : words)
-    if (is_around(word.span, offset)) found = word;
+  for (const PackWord& word : words) {
+    // The $ before a param belongs to it.
+    const bool has_dollar = word.sort == WordSort::param && !word.is_declaration;
+    const std::size_t begin = word.span.begin - (has_dollar ? 1 : 0);
+    if (is_around({begin, word.span.end}, offset)) found = word;
+  }
   return found;
 }
 
