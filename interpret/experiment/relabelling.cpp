@@ -57,11 +57,16 @@ Relabelling::Relabelling(const Pack& pack, const RuleUses& uses, const FeatureTa
       judged_anew_(pack.rules.size()),
       is_anew_(pack.rules.size()) {
   choices_ = run(pack, context_, nullptr);
+  membership_ = context_.membership;
   if (pack.rounds == 0) know_judgements();
 }
 
+const EvaluationContext& Relabelling::context() {
+  context_.membership = membership_;
+  return context_;
+}
+
 void Relabelling::know_judgements() {
-  membership_ = context_.membership;
   Evaluator evaluator(*pack_, context_);
   for (const Rule& rule : pack_->rules)
     judged_.push_back(judge(*pack_, rule, evaluator, context_.row_numbers));

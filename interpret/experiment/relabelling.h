@@ -27,7 +27,7 @@ class Relabelling {
 
   /// The building, with the memberships after the last rule of the pack as it is; valid until
   /// choices() is asked.
-  [[nodiscard]] const EvaluationContext& context() const { return context_; }
+  [[nodiscard]] const EvaluationContext& context();
 
   /// The class that was chosen, or kNoClass.
   static ClassId label_of(const Pack& pack, const Choice& choice) {

@@ -1,6 +1,5 @@
 #include "interpret/experiment/learn/learning_set.h"
 
-#include "interpret/experiment/relabelling.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -20,21 +19,55 @@ constexpr double kSharpFlip = 1e-4;
 /// Samples that are worked on in one piece.
 constexpr std::size_t kSamplesInShare = 4;
 
+/// Of all samples together so many labellings are kept, of some 100 kB, and so many curves and
+/// outcomes, of some 500 bytes; and so many packs.
+constexpr std::size_t kMostLabelled = 1000;
+constexpr std::size_t kMostKnown = 200'000;
+constexpr std::size_t kLeastKnown = 64;
+constexpr std::size_t kMostSettings = 256;
+
+/// Of each sample.
+std::size_t most_known(std::size_t samples) { return std::max(kLeastKnown, kMostKnown / samples); }
+
 }  // namespace
 
-/// Copies of the pack that one thread may change: one at a setting, one with a param besides.
-struct LearningSet::Worker {
-  explicit Worker(const rules::Pack& pack) : at(pack), varied(pack) {}
-
-  void set(const Setting& setting) {
-    for (std::size_t param = 0; param < setting.size(); ++param) {
-      if (at.pack().params[param].value == setting[param]) continue;
-      at.set(param, setting[param]);
-      varied.set(param, setting[param]);
-    }
+/// A setting that was asked for, with a pack that has it.
+struct LearningSet::KnownSetting {
+  KnownSetting(std::size_t known_as, Setting asked, const rules::Pack& base)
+      : number(known_as), setting(std::move(asked)), pack(base) {
+    for (std::size_t param = 0; param < setting.size(); ++param)
+      if (pack.pack().params[param].value != setting[param]) pack.set(param, setting[param]);
   }
 
-  rules::SettablePack at, varied;
+  std::size_t number;
+  Setting setting;
+  rules::SettablePack pack;
+};
+
+/// What is known of one sample, by the number of the setting; of curves by that of the param, too.
+struct LearningSet::KnownOfSample {
+  /// Labelled at a setting.
+  struct Labelled {
+    std::shared_ptr<const KnownSetting> setting;
+    std::unique_ptr<rules::Relabelling> relabelling;
+  };
+
+  std::map<std::size_t, LabelOutcome> outcomes;
+  std::map<std::pair<std::size_t, std::size_t>, ParamCurve> curves;
+  /// The last was used last.
+  std::vector<Labelled> labelled;
+};
+
+/// A copy of the pack that one thread may change: at a setting, with a param besides.
+struct LearningSet::Worker {
+  explicit Worker(const rules::Pack& pack) : varied(pack) {}
+
+  void set(const Setting& setting) {
+    for (std::size_t param = 0; param < setting.size(); ++param)
+      if (varied.pack().params[param].value != setting[param]) varied.set(param, setting[param]);
+  }
+
+  rules::SettablePack varied;
 };
 
 LearningSet::LearningSet(const rules::Pack& pack, std::span<const Sample> samples,
@@ -45,7 +78,8 @@ LearningSet::LearningSet(const rules::Pack& pack, std::span<const Sample> sample
       objective_(std::move(objective)),
       for_each_(for_each),
       turns_(pack.params.size()),
-      affected_(pack.params.size()) {
+      affected_(pack.params.size()),
+      known_(samples.size()) {
   std::vector<std::string> names;
   for (const rules::Class& c : pack.classes)
     if (!c.is_abstract) names.push_back(c.name);
@@ -72,33 +106,46 @@ Setting LearningSet::setting() const {
   return setting;
 }
 
-bool LearningSet::is_sound(const Setting& setting) const {
-  Worker worker(pack());
-  worker.set(setting);
-  return !worker.at.find_fault();
+std::shared_ptr<LearningSet::KnownSetting> LearningSet::known_setting(
+    const Setting& setting) const {
+  if (settings_.size() >= kMostSettings) settings_.clear();
+  auto& known = settings_[setting];
+  if (!known) known = std::make_shared<KnownSetting>(next_setting_++, setting, pack());
+  return known;
 }
 
-void LearningSet::for_each_sample(std::span<const std::size_t> samples, const Setting& setting,
-                                  const std::function<void(std::size_t, Worker&)>& work) const {
+bool LearningSet::is_sound(const Setting& setting) const {
+  return !known_setting(setting)->pack.find_fault();
+}
+
+void LearningSet::for_each_sample(std::span<const std::size_t> samples,
+                                  const std::function<void(std::size_t)>& work) const {
   const std::size_t shares = (samples.size() + kSamplesInShare - 1) / kSamplesInShare;
   for_each_(shares, [&](std::size_t share) {
-    std::unique_ptr<Worker> worker;
-    {
-      const std::scoped_lock lock(mutex_);
-      if (!idle_.empty()) {
-        worker = std::move(idle_.back());
-        idle_.pop_back();
-      }
-    }
-    if (!worker) worker = std::make_unique<Worker>(pack());
-    worker->set(setting);
     const std::size_t begin = share * kSamplesInShare;
     for (const std::size_t sample :
          samples.subspan(begin, std::min(kSamplesInShare, samples.size() - begin)))
-      work(sample, *worker);
-    const std::scoped_lock lock(mutex_);
-    idle_.push_back(std::move(worker));
+      work(sample);
   });
+}
+
+std::unique_ptr<LearningSet::Worker> LearningSet::borrow(const KnownSetting& setting) const {
+  std::unique_ptr<Worker> worker;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!idle_.empty()) {
+      worker = std::move(idle_.back());
+      idle_.pop_back();
+    }
+  }
+  if (!worker) worker = std::make_unique<Worker>(pack());
+  worker->set(setting.setting);
+  return worker;
+}
+
+void LearningSet::give_back(std::unique_ptr<Worker> worker) const {
+  const std::scoped_lock lock(mutex_);
+  idle_.push_back(std::move(worker));
 }
 
 LabelOutcome LearningSet::outcome_of(std::size_t sample,
@@ -119,11 +166,19 @@ LabelOutcome LearningSet::outcome_of(std::size_t sample,
 std::vector<LabelOutcome> LearningSet::outcomes(const Setting& setting,
                                                 std::span<const std::size_t> samples) const {
   std::vector<LabelOutcome> outcomes(samples_.size());
-  for_each_sample(samples, setting, [&](std::size_t sample, Worker& worker) {
+  const auto asked = known_setting(setting);
+  for_each_sample(samples, [&](std::size_t sample) {
+    auto& known = known_[sample].outcomes;
+    if (const auto found = known.find(asked->number); found != known.end()) {
+      outcomes[sample] = found->second;
+      return;
+    }
     const DescribedBuilding& building = samples_[sample].features;
-    const rules::Pack& pack = worker.at.pack();
+    const rules::Pack& pack = std::as_const(asked->pack).pack();
     rules::EvaluationContext context(pack, building.table, building.graph);
     outcomes[sample] = outcome_of(sample, rules::Labelling(pack, context).run());
+    if (known.size() >= most_known(samples_.size())) known.clear();
+    known.emplace(asked->number, outcomes[sample]);
   });
   return outcomes;
 }
@@ -139,17 +194,18 @@ double LearningSet::value(std::span<const LabelOutcome> outcomes,
 /// Follows one building along the range of a param.
 class CurveTracer {
  public:
+  /// `worker` stands at the setting at which `relabelling` was labelled.
   CurveTracer(const LearningSet& set, std::size_t sample, std::size_t param,
-              LearningSet::Worker& worker)
+              LearningSet::Worker& worker, rules::Relabelling& relabelling)
       : set_(set),
         sample_(sample),
         param_(param),
         worker_(worker),
         range_(*set.pack().params[param].range),
-        relabelling_(worker.at.pack(), *set.uses_, set.samples_[sample].features.table,
-                     set.samples_[sample].features.graph) {}
+        relabelling_(relabelling) {}
 
   ParamCurve run() {
+    const double value = worker_.varied.pack().params[param_].value;
     curve_.at_value = set_.outcome_of(sample_, relabelling_.choices());
     const rules::ParamTurns& turns = set_.turns_[param_];
     const auto bounds = find_bounds(turns);
@@ -158,7 +214,7 @@ class CurveTracer {
         trace_gradual(bounds[i], bounds[i + 1]);
       else
         add(bounds[i], outcome_at((bounds[i] + bounds[i + 1]) / 2));
-    worker_.varied.set(param_, worker_.at.pack().params[param_].value);
+    worker_.varied.set(param_, value);
     return std::move(curve_);
   }
 
@@ -221,17 +277,45 @@ class CurveTracer {
   std::size_t param_;
   LearningSet::Worker& worker_;
   std::pair<double, double> range_;
-  rules::Relabelling relabelling_;
+  rules::Relabelling& relabelling_;
   ParamCurve curve_;
   std::vector<int> last_rules_;
   LabelOutcome last_;
 };
 
+rules::Relabelling& LearningSet::labelled(std::size_t sample,
+                                          const std::shared_ptr<const KnownSetting>& at) const {
+  auto& labelled = known_[sample].labelled;
+  const auto found =
+      std::ranges::find(labelled, at.get(), [](const auto& l) { return l.setting.get(); });
+  if (found != labelled.end()) {
+    std::rotate(found, found + 1, labelled.end());
+    return *labelled.back().relabelling;
+  }
+  if (!labelled.empty() && labelled.size() >= kMostLabelled / samples_.size())
+    labelled.erase(labelled.begin());
+  const DescribedBuilding& building = samples_[sample].features;
+  labelled.push_back({at, std::make_unique<rules::Relabelling>(at->pack.pack(), *uses_,
+                                                               building.table, building.graph)});
+  return *labelled.back().relabelling;
+}
+
 std::vector<ParamCurve> LearningSet::curves(const Setting& setting, std::size_t param,
                                             std::span<const std::size_t> samples) const {
   std::vector<ParamCurve> curves(samples_.size());
-  for_each_sample(samples, setting, [&](std::size_t sample, Worker& worker) {
-    curves[sample] = CurveTracer(*this, sample, param, worker).run();
+  const std::shared_ptr<const KnownSetting> asked = known_setting(setting);
+  for_each_sample(samples, [&](std::size_t sample) {
+    auto& known = known_[sample].curves;
+    const std::pair key(asked->number, param);
+    if (const auto found = known.find(key); found != known.end()) {
+      curves[sample] = found->second;
+      return;
+    }
+    auto worker = borrow(*asked);
+    curves[sample] = CurveTracer(*this, sample, param, *worker, labelled(sample, asked)).run();
+    give_back(std::move(worker));
+    if (known.size() >= most_known(samples_.size())) known.clear();
+    known.emplace(key, curves[sample]);
   });
   return curves;
 }

@@ -4,6 +4,7 @@
 #include "interpret/experiment/learn/objective.h"
 #include "interpret/experiment/learn/param_curve.h"
 #include "interpret/experiment/parallel.h"
+#include "interpret/experiment/relabelling.h"
 #include "interpret/experiment/rule_uses.h"
 #include "interpret/experiment/sample.h"
 #include "interpret/explain/turning_points.h"
@@ -12,6 +13,8 @@
 #include "interpret/score/score.h"
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -22,7 +25,9 @@ namespace oriel {
 /// The values of all params of a pack, in its order.
 using Setting = std::vector<double>;
 
-/// Samples on which a pack is measured at many settings of its params.
+/// Samples on which a pack is measured at many settings of its params. What a sample comes to at a
+/// setting is known once it was found: folds, and folds within folds, begin at the same settings.
+/// One thread at a time may ask.
 class LearningSet {
  public:
   LearningSet(const rules::Pack& pack, std::span<const Sample> samples, Objective objective,
@@ -59,13 +64,19 @@ class LearningSet {
 
  private:
   struct Worker;
-  class Borrowed;
+  struct KnownSetting;
+  struct KnownOfSample;
   friend class CurveTracer;
 
   [[nodiscard]] LabelOutcome outcome_of(std::size_t sample,
                                         std::span<const rules::Choice> choices) const;
-  void for_each_sample(std::span<const std::size_t> samples, const Setting& setting,
-                       const std::function<void(std::size_t, Worker&)>& work) const;
+  [[nodiscard]] std::shared_ptr<KnownSetting> known_setting(const Setting& setting) const;
+  void for_each_sample(std::span<const std::size_t> samples,
+                       const std::function<void(std::size_t)>& work) const;
+  [[nodiscard]] std::unique_ptr<Worker> borrow(const KnownSetting& setting) const;
+  void give_back(std::unique_ptr<Worker> worker) const;
+  [[nodiscard]] rules::Relabelling& labelled(std::size_t sample,
+                                             const std::shared_ptr<const KnownSetting>& at) const;
 
   /// With the expressions that turning points need.
   rules::SettablePack pack_;
@@ -81,9 +92,13 @@ class LearningSet {
   std::unique_ptr<rules::RuleUses> uses_;
   /// By sample; one thread at a time works on one of them.
   mutable std::vector<LabelCounter> counters_;
+  mutable std::vector<KnownOfSample> known_;
   /// Packs that nobody works with at the moment.
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Worker>> idle_;
+  /// Settings that were asked for, and the next number of one.
+  mutable std::map<Setting, std::shared_ptr<KnownSetting>> settings_;
+  mutable std::size_t next_setting_ = 0;
 };
 
 }  // namespace oriel
