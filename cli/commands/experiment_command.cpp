@@ -8,12 +8,14 @@
 #include "cli/version/version_text.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
+#include "kernel/base/sha256.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/experiments/experiment.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,15 +74,24 @@ ExitCode check(const ExperimentArguments& arguments) {
   return exit_code_of(issues);
 }
 
+/// What an earlier run says that it left in the folder; nothing if there was none.
+std::optional<nlohmann::json> earlier_manifest(const std::string& folder) {
+  std::ifstream file(fs::path(folder) / "manifest.json");
+  if (!file) return std::nullopt;
+  return nlohmann::json::parse(file, nullptr, false);
+}
+
+/// The member of an object, if it is a text; else an empty one.
+std::string text_member(const nlohmann::json& json, const char* name) {
+  const auto found = json.is_object() ? json.find(name) : json.end();
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 /// Results of another experiment are not replaced unasked: E604.
 void refuse_other_results(const ExperimentArguments& arguments, const ExperimentPlan& plan) {
-  const fs::path manifest = fs::path(arguments.folder) / "manifest.json";
-  std::ifstream file(manifest);
-  if (!file || arguments.is_forced) return;
-  const auto json = nlohmann::json::parse(file, nullptr, false);
-  const auto name = json.is_object() ? json.find("name") : json.end();
-  const std::string other =
-      name != json.end() && name->is_string() ? name->get<std::string>() : std::string();
+  const auto manifest = earlier_manifest(arguments.folder);
+  if (!manifest || arguments.is_forced) return;
+  const std::string other = text_member(*manifest, "name");
   if (other == plan.name) return;
   refuse_usage("-o", Code::E604,
                fmt::format("{} has the results of another experiment{}; --force replaces them",
@@ -88,10 +99,34 @@ void refuse_other_results(const ExperimentArguments& arguments, const Experiment
                            other.empty() ? "" : ", '" + printable(other) + "'"));
 }
 
+/// Figures of an earlier run that this one does not have, as that run's manifest names them. What
+/// somebody has changed since stays.
+std::vector<fs::path> left_figures(const std::string& folder,
+                                   const std::vector<ReportFile>& files) {
+  std::vector<fs::path> left;
+  const auto manifest = earlier_manifest(folder);
+  if (!manifest || !manifest->is_object()) return left;
+  const auto listed = manifest->find("files");
+  if (listed == manifest->end() || !listed->is_array()) return left;
+  for (const auto& entry : *listed) {
+    const fs::path path = text_member(entry, "path");
+    const bool is_figure = path.parent_path() == "figures" && path.extension() == ".svg";
+    const auto is_this = [&](const ReportFile& file) { return fs::path(file.path) == path; };
+    if (!is_figure || std::ranges::any_of(files, is_this)) continue;
+    std::ifstream file(fs::path(folder) / path, std::ios::binary);
+    Sha256 hash;
+    hash.add(std::string(std::istreambuf_iterator<char>(file), {}));
+    if (file && hash.digest() == text_member(entry, "sha256"))
+      left.push_back(fs::path(folder) / path);
+  }
+  return left;
+}
+
 /// All of the files, or none of those that were not there before.
 void write_files(const std::string& folder, const std::vector<ReportFile>& files) {
   std::vector<std::unique_ptr<OutputFile>> outputs;
   std::vector<fs::path> new_files;
+  const std::vector<fs::path> left = left_figures(folder, files);
   for (const ReportFile& file : files) {
     const fs::path path = fs::path(folder) / file.path;
     std::error_code problem;  // opening the file says why it cannot be
@@ -107,6 +142,8 @@ void write_files(const std::string& folder, const std::vector<ReportFile>& files
     for (const fs::path& path : new_files) fs::remove(path, ignored);
     throw;
   }
+  std::error_code ignored;
+  for (const fs::path& path : left) fs::remove(path, ignored);
 }
 
 ExitCode run(const ExperimentArguments& arguments) {

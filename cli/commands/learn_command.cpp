@@ -41,6 +41,7 @@ constexpr const char* kCost = "cost";
 struct LearnArguments {
   std::vector<std::string> records;
   std::vector<std::string> truth;
+  std::vector<std::string> models;
   std::string corrections;
   std::string rules = "residential";
   std::string out;
@@ -154,6 +155,7 @@ ExitCode learn(const LearnArguments& arguments, Report& report) {
   if (!rules) return ExitCode::rules;
   const auto objective = objective_of(arguments, *rules, report);
   if (!objective) return ExitCode::rules;
+  report.add(report_old_records(arguments.records, arguments.models));
   ExitCode code = ExitCode::clean;
   const auto corrections = load_corrections(arguments.corrections, *rules, report, code);
   const auto samples = read_samples(arguments.records, arguments.truth, *rules, corrections.get());
@@ -198,9 +200,11 @@ ExitCode work(LearnArguments& arguments) {
   read_once(arguments.records, report);
   arguments.truth = truth_files(arguments.truth);
   read_once(arguments.truth, report);
+  read_once(arguments.models, report);
   NamedFiles names;
   for (const std::string& records : arguments.records) names.add_input("records", records);
   for (const std::string& truth : arguments.truth) names.add_input("--truth", truth);
+  for (const std::string& model : arguments.models) names.add_input("--models", model);
   names.add_input("--rules", arguments.rules);
   if (!arguments.costs.empty()) names.add_input("--costs", arguments.costs);
   if (!arguments.corrections.empty()) names.add_input("--corrections", arguments.corrections);
@@ -250,6 +254,8 @@ void add_learn(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--truth", arguments->truth,
                       "*.truth.json and *.truth.jsonl files, or folders of them");
+  command->add_option("--models", arguments->models,
+                      "The models that the records were made from: a warning if one is newer");
   add_corrections_argument(*command, arguments->corrections);
   command
       ->add_option("--rules", arguments->rules,

@@ -132,6 +132,23 @@ Checked<std::vector<Sample>> join_samples(std::vector<Sample> features,
   return reader.result(corrections);
 }
 
+std::vector<Issue> report_old_records(std::span<const std::string> records,
+                                      std::span<const std::string> models) {
+  std::vector<Issue> issues;
+  for (const std::string& model : models) const detail::Input is_there(model);
+  for (const std::string& path : records)
+    for (const std::string& model : models) {
+      auto sentence = newer_model(path, model);
+      if (!sentence) continue;
+      Issue& issue = issues.emplace_back();
+      issue.severity = Severity::warning;
+      issue.code = Code::R286;
+      issue.sentence = std::move(*sentence);
+      break;
+    }
+  return issues;
+}
+
 Checked<Objective::Costs> read_costs_file(const std::string& path) {
   return read_costs(detail::Input(path).read_all(), path);
 }

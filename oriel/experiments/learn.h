@@ -47,6 +47,12 @@ Checked<std::vector<Sample>> join_samples(std::vector<Sample> features,
                                           std::span<const GroundTruth> truths,
                                           const Corrections* corrections = nullptr);
 
+/// A warning R286 for each file of records that was written before one of the models was. Records
+/// say nothing of what they were made from: the dates of the files are all that is known.
+/// Throws InputError E101 for a model that cannot be read.
+std::vector<Issue> report_old_records(std::span<const std::string> records,
+                                      std::span<const std::string> models);
+
 /// read_costs() of a file. Throws InputError E101 if it cannot be read.
 Checked<Objective::Costs> read_costs_file(const std::string& path);
 

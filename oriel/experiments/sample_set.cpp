@@ -30,17 +30,12 @@ void read_set_truth(const SetPlan& set, SetFiles& files, std::vector<Issue>& iss
                       set.name, file.path)));
 }
 
-/// Records have no date of their own.
 void report_old_features(const SetPlan& set, const SetFiles& files, std::vector<Issue>& issues) {
   for (const HashedFile& features : files.features)
     for (const HashedFile& model : files.models) {
-      std::error_code problem;
-      if (fs::last_write_time(features.path, problem) >= fs::last_write_time(model.path, problem))
-        continue;
-      issues.push_back(set.features.front().spot.issue(
-          Severity::warning, Code::R286,
-          fmt::format("the features in {} are older than the model {}: make them again",
-                      features.path, model.path)));
+      const auto sentence = newer_model(features.path, model.path);
+      if (!sentence) continue;
+      issues.push_back(set.features.front().spot.issue(Severity::warning, Code::R286, *sentence));
       break;
     }
 }

@@ -5,6 +5,7 @@
 #include "oriel/score.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -89,6 +90,16 @@ std::vector<Sample> samples_of(std::vector<Sample> stored, const TruthByBuilding
     sample.truth = truths.at(id);
   }
   return samples;
+}
+
+std::optional<std::string> newer_model(const std::string& features, const std::string& model) {
+  std::error_code problem;
+  const auto written = std::filesystem::last_write_time(features, problem);
+  if (problem) return std::nullopt;
+  const auto changed = std::filesystem::last_write_time(model, problem);
+  if (problem || written >= changed) return std::nullopt;
+  return fmt::format("the features in {} are older than the model {}: make them again", features,
+                     model);
 }
 
 std::string some_of(std::span<const std::string> ids) {

@@ -6,6 +6,7 @@
 #include "kernel/io/records/truth.h"
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,10 @@ UnpairedBuildings unpaired_buildings(const std::vector<std::string>& with_featur
 /// there are none, so that all its objects count as missed.
 std::vector<Sample> samples_of(std::vector<Sample> stored, const TruthByBuilding& truths,
                                std::span<const std::string> buildings);
+
+/// What is wrong with features that were written before the model was, by the dates of the files:
+/// records say nothing of what they were made from. Nothing where the model is no newer.
+std::optional<std::string> newer_model(const std::string& features, const std::string& model);
 
 /// "'a', 'b', 'c' ...": the first of these ids.
 std::string some_of(std::span<const std::string> ids);

@@ -1,5 +1,6 @@
 #include "tests/cli/command.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -98,6 +99,22 @@ TEST_SUITE("cli") {
                                  "--leave-one-out", "--restarts", "0"});
     CHECK(outcome.exit == 3);
     CHECK_MESSAGE(outcome.says("E151"), outcome.err);
+  }
+
+  TEST_CASE("learn says that records are older than their models") {
+    const Folder folder;
+    const std::string records = samples_labelled(folder);
+    const std::string model = folder.write("house.city.json", "{}");
+    const auto learn_from_models = [&](std::chrono::hours later) {
+      namespace fs = std::filesystem;
+      fs::last_write_time(model, fs::last_write_time(records) + later);
+      return run({"learn", records, "--truth", truth_of("house"), truth_of("hip"), "--models",
+                  model, "--leave-one-out", "--restarts", "0", "--params", "parapet"});
+    };
+    const Outcome old = learn_from_models(std::chrono::hours(1));
+    CHECK(old.exit == 0);
+    CHECK_MESSAGE(old.says("R286"), old.err);
+    CHECK_FALSE(learn_from_models(std::chrono::hours(-1)).says("R286"));
   }
 
   TEST_CASE("learn makes the F1 of a class or the cost of errors best") {

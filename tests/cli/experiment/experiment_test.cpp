@@ -209,6 +209,34 @@ TEST_SUITE("cli/experiment") {
     }
   }
 
+  TEST_CASE("figures of an earlier run are gone unless somebody has changed them") {
+    const Folder folder;
+    const auto run_with_sets = [&](const std::vector<std::string>& sets) {
+      std::string text =
+          "schema: oriel-experiment/1\nname: t\nrules: residential\ncompare: {wide: "
+          "{params: {widest_leaf: 1.3 m}}}\nsets:\n";
+      for (const std::string& set : sets)
+        text += "  " + set + ": {features: parts.csv, truth: a.truth.json}\n";
+      folder.write("e.yaml", text);
+      return run_experiment_in(folder, "out").exit;
+    };
+    folder.write("parts.csv", "building,id,aabb_m\nhouse,f1,0;0;0;1;1;1\n");
+    folder.write("a.truth.json", truth_of("house"));
+    const fs::path figures = fs::path(folder / "out") / "figures";
+    REQUIRE(run_with_sets({"s", "t"}) == 3);
+    REQUIRE(fs::exists(figures / "compare-s.svg"));
+    REQUIRE(fs::exists(figures / "compare-t.svg"));
+    std::ofstream(figures / "mine.svg") << "<svg/>";
+    REQUIRE(run_with_sets({"s"}) == 3);
+    CHECK(fs::exists(figures / "compare-s.svg"));
+    CHECK_FALSE(fs::exists(figures / "compare-t.svg"));
+    CHECK(fs::exists(figures / "mine.svg"));
+    REQUIRE(run_with_sets({"s", "t"}) == 3);
+    std::ofstream(figures / "compare-t.svg") << "<svg/>";
+    REQUIRE(run_with_sets({"s"}) == 3);
+    CHECK(fs::exists(figures / "compare-t.svg"));
+  }
+
   TEST_CASE("folds without a class and old features are warnings") {
     const Folder folder;
     folder.write("parts.csv", "building,id\nhouse,f1\n");
