@@ -114,6 +114,23 @@ TEST_SUITE("cli/experiment") {
     CHECK(open.says("is no solid, so that nothing is counted"));
   }
 
+  TEST_CASE("the committed report of the paper's table is what the program says") {
+    const Folder folder;
+    const fs::path project = ORIEL_SOURCE_DIR;
+    std::string committed = bytes_of(project / "docs/experiments/figure5/report.md");
+    REQUIRE_FALSE(committed.empty());
+    for (const char* jobs : {"1", "2"}) {
+      const Outcome outcome =
+          run({"experiment", "run", (project / "examples/experiments/figure5.yaml").string(), "-o",
+               folder / "out", "-j", jobs});
+      CHECK(outcome.exit == 0);
+      std::string report = bytes_of(folder / "out/report.md");
+      if (const auto begin = report.find(" (commit "); begin != std::string::npos)
+        report.erase(begin, report.find(')', begin) + 1 - begin);
+      CHECK(report == committed);
+    }
+  }
+
   TEST_CASE("a run that was killed goes on where it was and gives the same bytes") {
     const Folder folder;
     folder.write("e.yaml", experiment_on_samples(kSections));
