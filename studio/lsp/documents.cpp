@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -26,17 +28,27 @@ bool is_of_oriel(const EditedPack& pack) {
   return !has_keys;
 }
 
-void OpenDocuments::forget_all() {
-  for (auto& [uri, document] : documents_) {
-    document.pack.reset();
-    document.is_dirty = true;
+void OpenDocuments::forget(const std::string& uri) {
+  std::vector<std::string> changed = {uri};
+  std::set<std::string> seen;
+  while (!changed.empty()) {
+    const std::string one = std::move(changed.back());
+    changed.pop_back();
+    if (!seen.insert(one).second) continue;
+    if (OpenDocument* document = find(one)) {
+      document->pack.reset();
+      document->is_dirty = true;
+    }
+    const std::string name = std::filesystem::path(path_of_uri(one)).filename().string();
+    for (const auto& [other, document] : documents_)
+      if (!name.empty() && document.text.find(name) != std::string::npos) changed.push_back(other);
   }
 }
 
 void OpenDocuments::open(const std::string& uri, std::optional<std::int64_t> version,
                          std::string text) {
   documents_[uri] = {uri, version, std::move(text), nullptr, true};
-  forget_all();
+  forget(uri);
 }
 
 bool OpenDocuments::change(const std::string& uri, std::optional<std::int64_t> version,
@@ -54,13 +66,13 @@ bool OpenDocuments::change(const std::string& uri, std::optional<std::int64_t> v
     document->text.replace(begin, end - begin, change.text);
   }
   document->version = version;
-  forget_all();
+  forget(uri);
   return true;
 }
 
 bool OpenDocuments::close(const std::string& uri) {
   const bool was_open = documents_.erase(uri) > 0;
-  if (was_open) forget_all();
+  if (was_open) forget(uri);
   return was_open;
 }
 

@@ -51,8 +51,8 @@ class OpenDocuments {
   [[nodiscard]] bool has_dirty() const;
 
  private:
-  /// What extends or tests the changed one is not what it was.
-  void forget_all();
+  /// What is known of a document that has changed, and of those that extend or test it.
+  void forget(const std::string& uri);
 
   std::map<std::string, OpenDocument> documents_;
 };
