@@ -12,22 +12,20 @@ namespace oriel::studio {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string as_text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string as_text(const JsonValue& json) {
+  return json.dump(-1, ' ', false, JsonValue::error_handler_t::replace);
 }
 
-Json edit_json(const TextPlaces& places, const TextEdit& edit) {
-  Json json = range_json(places, edit.where);
+JsonValue edit_json(const TextPlaces& places, const TextEdit& edit) {
+  JsonValue json = range_json(places, edit.where);
   json["text"] = edit.text;
   return json;
 }
 
-Json fixes_json(const TextPlaces& places, const std::vector<QuickFix>& fixes) {
-  Json list = Json::array();
+JsonValue fixes_json(const TextPlaces& places, const std::vector<QuickFix>& fixes) {
+  JsonValue list = JsonValue::array();
   for (const QuickFix& fix : fixes) {
-    Json edits = Json::array();
+    JsonValue edits = JsonValue::array();
     for (const TextEdit& edit : fix.edits) edits.push_back(edit_json(places, edit));
     list.push_back({{"title", fix.title}, {"edits", std::move(edits)}});
   }
@@ -47,9 +45,9 @@ struct LanguageQuestion {
   std::size_t offset = 0;
 };
 
-Json complete(const LanguageQuestion& question) {
+JsonValue complete(const LanguageQuestion& question) {
   const TextPlaces& places = question.pack.places();
-  Json items = Json::array();
+  JsonValue items = JsonValue::array();
   for (const Completion& item : question.pack.complete(question.offset))
     items.push_back({{"label", item.label},
                      {"kind", item.kind},
@@ -60,30 +58,30 @@ Json complete(const LanguageQuestion& question) {
   return {{"items", std::move(items)}};
 }
 
-Json hover(const LanguageQuestion& question) {
+JsonValue hover(const LanguageQuestion& question) {
   const auto hover = question.pack.hover(question.offset);
   if (!hover) return nullptr;
-  Json json{{"text", hover->text}};
+  JsonValue json{{"text", hover->text}};
   json.update(range_json(question.pack.places(), hover->where));
   return json;
 }
 
-Json definition(const LanguageQuestion& question) {
+JsonValue definition(const LanguageQuestion& question) {
   const auto place = question.pack.definition(question.offset);
   if (!place) return nullptr;
-  Json json{{"line", place->begin.line},
-            {"column", place->begin.column},
-            {"end_line", place->end.line},
-            {"end_column", place->end.column}};
-  json["file"] = place->is_here ? Json(nullptr) : Json(place->file);
+  JsonValue json{{"line", place->begin.line},
+                 {"column", place->begin.column},
+                 {"end_line", place->end.line},
+                 {"end_column", place->end.column}};
+  json["file"] = place->is_here ? JsonValue(nullptr) : JsonValue(place->file);
   return json;
 }
 
 /// Only the edits of the pack itself: the page has no other text open.
-Json rename(const LanguageQuestion& question) {
+JsonValue rename(const LanguageQuestion& question) {
   const Renaming renaming = question.pack.rename(question.offset, question.name);
   if (!renaming.refusal.empty()) return {{"error", renaming.refusal}};
-  Json edits = Json::array();
+  JsonValue edits = JsonValue::array();
   for (const FileEdits& file : renaming.files)
     if (file.file == question.pack.file())
       for (const TextEdit& edit : file.edits)
@@ -91,15 +89,15 @@ Json rename(const LanguageQuestion& question) {
   return {{"edits", std::move(edits)}};
 }
 
-Json format(const LanguageQuestion& question) {
+JsonValue format(const LanguageQuestion& question) {
   const auto formatted = question.pack.format();
   if (formatted.value) return {{"text", *formatted.value}};
   return {{"findings", findings_json(question.pack)}};
 }
 
-Json outline(const LanguageQuestion& question) {
+JsonValue outline(const LanguageQuestion& question) {
   const TextPlaces& places = question.pack.places();
-  Json items = Json::array();
+  JsonValue items = JsonValue::array();
   for (const OutlineItem& item : question.pack.outline())
     items.push_back({{"kind", item.kind},
                      {"name", item.name},
@@ -111,13 +109,13 @@ Json outline(const LanguageQuestion& question) {
   return {{"items", std::move(items)}};
 }
 
-Json fixes(const LanguageQuestion& question) {
+JsonValue fixes(const LanguageQuestion& question) {
   return {{"findings", findings_json(question.pack)}};
 }
 
 struct LanguageVerb {
   std::string_view name{};
-  Json (*answer)(const LanguageQuestion&);
+  JsonValue (*answer)(const LanguageQuestion&);
 };
 constexpr std::array<LanguageVerb, 7> kVerbs = {{{"complete", complete},
                                                  {"hover", hover},
@@ -127,14 +125,14 @@ constexpr std::array<LanguageVerb, 7> kVerbs = {{{"complete", complete},
                                                  {"outline", outline},
                                                  {"fixes", fixes}}};
 
-std::optional<std::string> text_member(const Json& body, const char* key) {
+std::optional<std::string> text_member(const JsonValue& body, const char* key) {
   const auto found = body.find(key);
   if (found == body.end() || !found->is_string()) return std::nullopt;
   return found->get<std::string>();
 }
 
 /// A line or a column, 1 where there is none.
-int number_member(const Json& body, const char* key) {
+int number_member(const JsonValue& body, const char* key) {
   const auto found = body.find(key);
   if (found == body.end() || !found->is_number_integer()) return 1;
   return static_cast<int>(std::clamp<std::int64_t>(found->get<std::int64_t>(), 1, 1'000'000'000));
@@ -142,7 +140,7 @@ int number_member(const Json& body, const char* key) {
 
 }  // namespace
 
-Json range_json(const TextPlaces& places, TextSpan where) {
+JsonValue range_json(const TextPlaces& places, TextSpan where) {
   const TextPlace begin = places.place(where.begin);
   const TextPlace end = places.place(where.end);
   return {{"line", begin.line},
@@ -151,14 +149,15 @@ Json range_json(const TextPlaces& places, TextSpan where) {
           {"end_column", end.column}};
 }
 
-Json findings_json(const EditedPack& pack) {
-  Json list = Json::array();
+JsonValue findings_json(const EditedPack& pack) {
+  JsonValue list = JsonValue::array();
   for (const TextFinding& finding : pack.findings()) {
     const std::size_t advice = begin_of_advice(finding.sentence);
-    Json json{{"code", to_string(finding.code)},
-              {"severity", to_string(finding.severity)},
-              {"sentence", finding.sentence.substr(0, advice)},
-              {"advice", finding.sentence.substr(std::min(advice + 2, finding.sentence.size()))}};
+    JsonValue json{
+        {"code", to_string(finding.code)},
+        {"severity", to_string(finding.severity)},
+        {"sentence", finding.sentence.substr(0, advice)},
+        {"advice", finding.sentence.substr(std::min(advice + 2, finding.sentence.size()))}};
     json.update(range_json(pack.places(), finding.where));
     json["fixes"] = fixes_json(pack.places(), finding.fixes);
     list.push_back(std::move(json));
@@ -167,7 +166,7 @@ Json findings_json(const EditedPack& pack) {
 }
 
 Reply answer_language(std::string_view body, const std::string& file) {
-  const Json json = Json::parse(body, nullptr, false);
+  const JsonValue json = JsonValue::parse(body, nullptr, false);
   if (!json.is_object()) return error_reply(400, "the request is no JSON object");
   const auto verb = text_member(json, "verb");
   const auto text = text_member(json, "text");
@@ -178,7 +177,7 @@ Reply answer_language(std::string_view body, const std::string& file) {
   LanguageQuestion question{*verb, text_member(json, "name").value_or(""), {*text, file}};
   question.offset =
       question.pack.places().offset({number_member(json, "line"), number_member(json, "column")});
-  Json answer = known->answer(question);
+  JsonValue answer = known->answer(question);
   if (answer.is_object() && answer.contains("error"))
     return error_reply(409, answer["error"].get<std::string>());
   return {200, as_text(answer)};

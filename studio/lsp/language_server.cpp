@@ -21,13 +21,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace oriel::studio {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Findings wait for so long a pause of the client.
 constexpr std::chrono::milliseconds kPause{80};
@@ -48,7 +45,7 @@ class LanguageServer {
   using Clock = std::chrono::steady_clock;
   enum class Phase { before, running, after };
 
-  using Answer = Json (LanguageServer::*)(const Json&);
+  using Answer = JsonValue (LanguageServer::*)(const JsonValue&);
   struct Method {
     std::string_view name;
     Answer answer;
@@ -57,39 +54,39 @@ class LanguageServer {
   void step();
   [[nodiscard]] std::optional<std::chrono::milliseconds> patience() const;
   void take(const std::string& body);
-  void take_notification(const std::string& method, const Json& params);
-  void answer(const Json& id, const std::string& method, const Json& params);
-  [[nodiscard]] Json result_of(const std::string& method, const Json& params);
+  void take_notification(const std::string& method, const JsonValue& params);
+  void answer(const JsonValue& id, const std::string& method, const JsonValue& params);
+  [[nodiscard]] JsonValue result_of(const std::string& method, const JsonValue& params);
 
-  void send(const Json& message);
-  void send_error(const Json& id, RpcCode code, const std::string& sentence);
+  void send(const JsonValue& message);
+  void send_error(const JsonValue& id, RpcCode code, const std::string& sentence);
   void publish_findings();
-  void publish(const std::string& uri, std::optional<std::int64_t> version, Json findings);
+  void publish(const std::string& uri, std::optional<std::int64_t> version, JsonValue findings);
 
   // Requests.
-  Json initialize(const Json& params);
-  Json shutdown(const Json& params);
-  Json complete(const Json& params);
-  Json hover(const Json& params);
-  Json definition(const Json& params);
-  Json symbols(const Json& params);
-  Json format(const Json& params);
-  Json prepare_rename(const Json& params);
-  Json rename(const Json& params);
-  Json fixes(const Json& params);
+  JsonValue initialize(const JsonValue& params);
+  JsonValue shutdown(const JsonValue& params);
+  JsonValue complete(const JsonValue& params);
+  JsonValue hover(const JsonValue& params);
+  JsonValue definition(const JsonValue& params);
+  JsonValue symbols(const JsonValue& params);
+  JsonValue format(const JsonValue& params);
+  JsonValue prepare_rename(const JsonValue& params);
+  JsonValue rename(const JsonValue& params);
+  JsonValue fixes(const JsonValue& params);
 
   // Notifications.
-  void open(const Json& params);
-  void change(const Json& params);
-  void close(const Json& params);
+  void open(const JsonValue& params);
+  void change(const JsonValue& params);
+  void close(const JsonValue& params);
 
-  struct Asked {
+  struct AskedPlace {
     const EditedPack* pack = nullptr;
     std::string uri;
     std::size_t offset = 0;
   };
   /// The document of a request, and the place in it if one is asked about.
-  Asked asked(const Json& params, bool has_position);
+  AskedPlace asked(const JsonValue& params, bool has_position);
   [[nodiscard]] std::string uri_of(const DefinitionPlace& place, const std::string& here) const;
 
   MessageStream stream_;
@@ -119,23 +116,23 @@ void LanguageServer::step() {
   if (patience() == std::chrono::milliseconds{0}) return publish_findings();
   const MessageStream::Read read = stream_.read(patience());
   switch (read.outcome) {
-    case MessageStream::Outcome::message:
+    case MessageStream::ReadOutcome::message:
       return take(read.body);
-    case MessageStream::Outcome::unreadable:
+    case MessageStream::ReadOutcome::unreadable:
       return send_error(nullptr, RpcCode::parse_error, read.body);
-    case MessageStream::Outcome::silence:
+    case MessageStream::ReadOutcome::silence:
       return publish_findings();
-    case MessageStream::Outcome::end:
+    case MessageStream::ReadOutcome::end:
       exit_code_ = 1;
   }
 }
 
 void LanguageServer::take(const std::string& body) {
-  const Json message = Json::parse(body, nullptr, false);
+  const JsonValue message = JsonValue::parse(body, nullptr, false);
   if (message.is_discarded())
     return send_error(nullptr, RpcCode::parse_error, "this is not JSON in UTF-8");
   const bool is_object = message.is_object();
-  const Json id = is_object ? message.value("id", Json()) : Json();
+  const JsonValue id = is_object ? message.value("id", JsonValue()) : JsonValue();
   const bool has_id = is_object && message.contains("id");
   const bool has_method = is_object && message.contains("method") && message["method"].is_string();
   const bool is_answer = is_object && !message.contains("method") && has_id &&
@@ -143,10 +140,10 @@ void LanguageServer::take(const std::string& body) {
   if (is_answer) return;  // nothing is asked of clients
   const bool is_id = id.is_number_integer() || id.is_string();
   if (!has_method || (has_id && !is_id))
-    return send_error(is_id ? id : Json(), RpcCode::invalid_request,
+    return send_error(is_id ? id : JsonValue(), RpcCode::invalid_request,
                       "a request is an object with 'method', a text, and 'id', a number or a text");
   const std::string method = message["method"].get<std::string>();
-  const Json params = message.value("params", Json::object());
+  const JsonValue params = message.value("params", JsonValue::object());
   if (has_id)
     answer(id, method, params);
   else
@@ -154,7 +151,7 @@ void LanguageServer::take(const std::string& body) {
 }
 
 /// Notifications have no answer: what is wrong with one is passed over.
-void LanguageServer::take_notification(const std::string& method, const Json& params) {
+void LanguageServer::take_notification(const std::string& method, const JsonValue& params) {
   if (method == "exit") {
     exit_code_ = phase_ == Phase::after ? 0 : 1;
     return;
@@ -164,19 +161,20 @@ void LanguageServer::take_notification(const std::string& method, const Json& pa
     if (method == "textDocument/didOpen") open(params);
     if (method == "textDocument/didChange") change(params);
     if (method == "textDocument/didClose") close(params);
-  } catch (const Json::exception&) {
+  } catch (const JsonValue::exception&) {
     return;
   }
 }
 
-void LanguageServer::answer(const Json& id, const std::string& method, const Json& params) {
+void LanguageServer::answer(const JsonValue& id, const std::string& method,
+                            const JsonValue& params) {
   try {
-    Json reply{{"jsonrpc", "2.0"}, {"id", id}};
+    JsonValue reply{{"jsonrpc", "2.0"}, {"id", id}};
     reply["result"] = result_of(method, params);
     send(reply);
   } catch (const RpcError& error) {
     send_error(id, error.code(), error.what());
-  } catch (const Json::exception&) {
+  } catch (const JsonValue::exception&) {
     send_error(id, RpcCode::invalid_params, fmt::format("the params are not those of {}", method));
   } catch (const std::bad_alloc&) {
     throw;
@@ -185,7 +183,7 @@ void LanguageServer::answer(const Json& id, const std::string& method, const Jso
   }
 }
 
-Json LanguageServer::result_of(const std::string& method, const Json& params) {
+JsonValue LanguageServer::result_of(const std::string& method, const JsonValue& params) {
   static constexpr std::array kMethods = {
       Method{"initialize", &LanguageServer::initialize},
       Method{"shutdown", &LanguageServer::shutdown},
@@ -211,20 +209,21 @@ Json LanguageServer::result_of(const std::string& method, const Json& params) {
   return (this->*known->answer)(params);
 }
 
-void LanguageServer::send(const Json& message) {
-  const bool is_heard = stream_.write(message.dump(-1, ' ', false, Json::error_handler_t::replace));
+void LanguageServer::send(const JsonValue& message) {
+  const bool is_heard =
+      stream_.write(message.dump(-1, ' ', false, JsonValue::error_handler_t::replace));
   if (!is_heard) exit_code_ = 1;
 }
 
-void LanguageServer::send_error(const Json& id, RpcCode code, const std::string& sentence) {
+void LanguageServer::send_error(const JsonValue& id, RpcCode code, const std::string& sentence) {
   send({{"jsonrpc", "2.0"},
         {"id", id},
         {"error", {{"code", static_cast<int>(code)}, {"message", sentence}}}});
 }
 
 void LanguageServer::publish(const std::string& uri, std::optional<std::int64_t> version,
-                             Json findings) {
-  Json params{{"uri", uri}};
+                             JsonValue findings) {
+  JsonValue params{{"uri", uri}};
   if (version) params["version"] = *version;
   params["diagnostics"] = std::move(findings);
   send({{"jsonrpc", "2.0"},
@@ -236,7 +235,7 @@ void LanguageServer::publish_findings() {
   dirty_since_.reset();
   for (OpenDocument* document : documents_.dirty()) {
     const EditedPack& pack = documents_.pack_of(*document);
-    Json findings = Json::array();
+    JsonValue findings = JsonValue::array();
     if (is_of_oriel(pack))
       for (const TextFinding& finding : pack.findings())
         findings.push_back(
@@ -247,8 +246,8 @@ void LanguageServer::publish_findings() {
 }
 
 /// The value at a path of members; null if there is none.
-Json member_at(const Json& json, std::initializer_list<const char*> path) {
-  const Json* at = &json;
+JsonValue member_at(const JsonValue& json, std::initializer_list<const char*> path) {
+  const JsonValue* at = &json;
   for (const char* key : path) {
     if (!at->is_object() || !at->contains(key)) return nullptr;
     at = &(*at)[key];
@@ -256,8 +255,8 @@ Json member_at(const Json& json, std::initializer_list<const char*> path) {
   return *at;
 }
 
-Json LanguageServer::initialize(const Json& params) {
-  const Json text = member_at(params, {"capabilities", "textDocument"});
+JsonValue LanguageServer::initialize(const JsonValue& params) {
+  const JsonValue text = member_at(params, {"capabilities", "textDocument"});
   knows_trees_ = member_at(text, {"documentSymbol", "hierarchicalDocumentSymbolSupport"}) == true;
   knows_links_ = member_at(text, {"publishDiagnostics", "codeDescriptionSupport"}) == true;
   phase_ = Phase::running;
@@ -274,13 +273,13 @@ Json LanguageServer::initialize(const Json& params) {
           {"serverInfo", {{"name", "oriel"}, {"version", options_->version}}}};
 }
 
-Json LanguageServer::shutdown(const Json& /*params*/) {
+JsonValue LanguageServer::shutdown(const JsonValue& /*params*/) {
   phase_ = Phase::after;
   return nullptr;
 }
 
-LanguageServer::Asked LanguageServer::asked(const Json& params, bool has_position) {
-  Asked asked;
+LanguageServer::AskedPlace LanguageServer::asked(const JsonValue& params, bool has_position) {
+  AskedPlace asked;
   asked.uri = params.at("textDocument").at("uri").get<std::string>();
   OpenDocument* document = documents_.find(asked.uri);
   if (document == nullptr)
@@ -291,13 +290,13 @@ LanguageServer::Asked LanguageServer::asked(const Json& params, bool has_positio
   return asked;
 }
 
-Json LanguageServer::complete(const Json& params) {
-  const Asked at = asked(params, true);
+JsonValue LanguageServer::complete(const JsonValue& params) {
+  const AskedPlace at = asked(params, true);
   return completion_json(*at.pack, at.offset);
 }
 
-Json LanguageServer::hover(const Json& params) {
-  const Asked at = asked(params, true);
+JsonValue LanguageServer::hover(const JsonValue& params) {
+  const AskedPlace at = asked(params, true);
   const auto hover = at.pack->hover(at.offset);
   if (!hover) return nullptr;
   return {{"contents", {{"kind", "plaintext"}, {"value", hover->text}}},
@@ -323,8 +322,8 @@ std::string LanguageServer::uri_of(const DefinitionPlace& place, const std::stri
   return uri_of_path(copy.string());
 }
 
-Json LanguageServer::definition(const Json& params) {
-  const Asked at = asked(params, true);
+JsonValue LanguageServer::definition(const JsonValue& params) {
+  const AskedPlace at = asked(params, true);
   const auto place = at.pack->definition(at.offset);
   const std::string uri = place ? uri_of(*place, at.uri) : "";
   if (uri.empty()) return nullptr;
@@ -332,32 +331,32 @@ Json LanguageServer::definition(const Json& params) {
           {"range", {{"start", position_json(place->begin)}, {"end", position_json(place->end)}}}};
 }
 
-Json LanguageServer::symbols(const Json& params) {
-  const Asked at = asked(params, false);
+JsonValue LanguageServer::symbols(const JsonValue& params) {
+  const AskedPlace at = asked(params, false);
   return symbols_json(*at.pack, at.uri, knows_trees_);
 }
 
 /// A pack with errors stays as it is: its findings are shown already.
-Json LanguageServer::format(const Json& params) {
-  const Asked at = asked(params, false);
+JsonValue LanguageServer::format(const JsonValue& params) {
+  const AskedPlace at = asked(params, false);
   const auto formatted = at.pack->format();
-  if (!formatted.value) return Json::array();
+  if (!formatted.value) return JsonValue::array();
   return edits_json(at.pack->places(), changed_lines(at.pack->text(), *formatted.value));
 }
 
-Json LanguageServer::prepare_rename(const Json& params) {
-  const Asked at = asked(params, true);
+JsonValue LanguageServer::prepare_rename(const JsonValue& params) {
+  const AskedPlace at = asked(params, true);
   const auto where = at.pack->renameable(at.offset);
   if (!where) return nullptr;
   return {{"range", protocol_range(at.pack->places(), *where)},
           {"placeholder", at.pack->text().substr(where->begin, where->end - where->begin)}};
 }
 
-Json LanguageServer::rename(const Json& params) {
-  const Asked at = asked(params, true);
+JsonValue LanguageServer::rename(const JsonValue& params) {
+  const AskedPlace at = asked(params, true);
   const Renaming renaming = at.pack->rename(at.offset, params.at("newName").get<std::string>());
   if (!renaming.refusal.empty()) throw RpcError(RpcCode::request_failed, renaming.refusal);
-  Json changes = Json::object();
+  JsonValue changes = JsonValue::object();
   for (const FileEdits& file : renaming.files) {
     const std::string uri = file.file == at.pack->file() ? at.uri : uri_of_path(file.file);
     changes[uri] = edits_json(TextPlaces(file.text), file.edits);
@@ -365,24 +364,24 @@ Json LanguageServer::rename(const Json& params) {
   return {{"changes", std::move(changes)}};
 }
 
-Json LanguageServer::fixes(const Json& params) {
-  const Asked at = asked(params, false);
+JsonValue LanguageServer::fixes(const JsonValue& params) {
+  const AskedPlace at = asked(params, false);
   const TextPlaces& places = at.pack->places();
-  const Json& range = params.at("range");
+  const JsonValue& range = params.at("range");
   const std::size_t begin = places.offset(place_of_position(range.at("start")));
   const std::size_t end = places.offset(place_of_position(range.at("end")));
-  const Json only = member_at(params, {"context", "only"});
-  const auto is_asked = [](const Json& kind) { return kind == "quickfix" || kind == ""; };
-  Json actions = Json::array();
+  const JsonValue only = member_at(params, {"context", "only"});
+  const auto is_asked = [](const JsonValue& kind) { return kind == "quickfix" || kind == ""; };
+  JsonValue actions = JsonValue::array();
   if (only.is_array() && std::ranges::none_of(only, is_asked)) return actions;
   for (const TextFinding& finding : at.pack->findings()) {
     if (finding.where.begin > end || finding.where.end < begin) continue;
     for (const QuickFix& fix : finding.fixes) {
-      Json edits;
+      JsonValue edits;
       edits[at.uri] = edits_json(places, fix.edits);
       actions.push_back({{"title", fix.title},
                          {"kind", "quickfix"},
-                         {"diagnostics", Json::array({diagnostic_json(
+                         {"diagnostics", JsonValue::array({diagnostic_json(
                                              *at.pack, finding,
                                              knows_links_ ? options_->docs_url : std::string())})},
                          {"isPreferred", true},
@@ -392,35 +391,35 @@ Json LanguageServer::fixes(const Json& params) {
   return actions;
 }
 
-std::optional<std::int64_t> version_in(const Json& document) {
-  const Json version = member_at(document, {"version"});
+std::optional<std::int64_t> version_in(const JsonValue& document) {
+  const JsonValue version = member_at(document, {"version"});
   return version.is_number_integer() ? std::optional(version.get<std::int64_t>()) : std::nullopt;
 }
 
-void LanguageServer::open(const Json& params) {
-  const Json& document = params.at("textDocument");
+void LanguageServer::open(const JsonValue& params) {
+  const JsonValue& document = params.at("textDocument");
   documents_.open(document.at("uri").get<std::string>(), version_in(document),
                   document.at("text").get<std::string>());
   publish_findings();
 }
 
-void LanguageServer::change(const Json& params) {
-  const Json& document = params.at("textDocument");
+void LanguageServer::change(const JsonValue& params) {
+  const JsonValue& document = params.at("textDocument");
   std::vector<DocumentChange> changes;
-  for (const Json& content : params.at("contentChanges")) {
+  for (const JsonValue& content : params.at("contentChanges")) {
     DocumentChange& change = changes.emplace_back();
     change.text = content.at("text").get<std::string>();
     if (!content.contains("range")) continue;
-    const Json& range = content["range"];
+    const JsonValue& range = content["range"];
     change.range = {place_of_position(range.at("start")), place_of_position(range.at("end"))};
   }
   documents_.change(document.at("uri").get<std::string>(), version_in(document), changes);
 }
 
 /// What an editor shows of a closed document goes.
-void LanguageServer::close(const Json& params) {
+void LanguageServer::close(const JsonValue& params) {
   const std::string uri = params.at("textDocument").at("uri").get<std::string>();
-  if (documents_.close(uri)) publish(uri, std::nullopt, Json::array());
+  if (documents_.close(uri)) publish(uri, std::nullopt, JsonValue::array());
 }
 
 }  // namespace

@@ -62,44 +62,44 @@ std::optional<MessageStream::Read> MessageStream::take() {
   if (!header && buffer_.size() <= kLongestHeader) return std::nullopt;
   if (!header) {
     buffer_.clear();
-    return Read{Outcome::unreadable, "a header without end"};
+    return Read{ReadOutcome::unreadable, "a header without end"};
   }
   const auto length = length_in(std::string_view(buffer_).substr(0, header->first));
   const std::size_t begin = header->first + header->second;
   if (!length) {
     buffer_.erase(0, begin);
-    return Read{Outcome::unreadable, "a header without Content-Length: NUMBER"};
+    return Read{ReadOutcome::unreadable, "a header without Content-Length: NUMBER"};
   }
   if (*length > kLongestBody) {
     buffer_.erase(0, begin);
     passed_over_ = *length;
-    return Read{Outcome::unreadable, fmt::format("a message of {} bytes is too long", *length)};
+    return Read{ReadOutcome::unreadable, fmt::format("a message of {} bytes is too long", *length)};
   }
   if (buffer_.size() - begin < *length) return std::nullopt;
-  Read read{Outcome::message, buffer_.substr(begin, *length)};
+  Read read{ReadOutcome::message, buffer_.substr(begin, *length)};
   buffer_.erase(0, begin + *length);
   return read;
 }
 
-MessageStream::Filling MessageStream::fill(std::optional<std::chrono::milliseconds> patience) {
+MessageStream::FillResult MessageStream::fill(std::optional<std::chrono::milliseconds> patience) {
   pollfd waiting{in_, POLLIN, 0};
   const int ready = ::poll(&waiting, 1, patience ? static_cast<int>(patience->count()) : -1);
-  if (ready == 0) return Filling::nothing;
-  if (ready < 0) return errno == EINTR ? Filling::more : Filling::end;
+  if (ready == 0) return FillResult::nothing;
+  if (ready < 0) return errno == EINTR ? FillResult::more : FillResult::end;
   std::array<char, 65536> bytes{};
   const ssize_t count = ::read(in_, bytes.data(), bytes.size());
-  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return Filling::more;
-  if (count <= 0) return Filling::end;
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return FillResult::more;
+  if (count <= 0) return FillResult::end;
   buffer_.append(bytes.data(), static_cast<std::size_t>(count));
-  return Filling::more;
+  return FillResult::more;
 }
 
 MessageStream::Read MessageStream::read(std::optional<std::chrono::milliseconds> patience) {
   while (true) {
     if (auto read = take()) return std::move(*read);
-    const Filling filling = fill(patience);
-    if (filling == Filling::nothing) return {Outcome::silence, ""};
-    if (filling == Filling::end) return {Outcome::end, ""};
+    const FillResult filling = fill(patience);
+    if (filling == FillResult::nothing) return {ReadOutcome::silence, ""};
+    if (filling == FillResult::end) return {ReadOutcome::end, ""};
   }
 }
 

@@ -16,14 +16,14 @@ class MessageStream {
   static constexpr std::size_t kLongestBody = 64U * 1024 * 1024;
   static constexpr std::size_t kLongestHeader = 8192;
 
-  enum class Outcome {
+  enum class ReadOutcome {
     message,
     unreadable,  ///< a header without a length that can be kept to, or too long a body
     silence,     ///< nothing came in time
     end          ///< nothing will come any more
   };
   struct Read {
-    Outcome outcome = Outcome::end;
+    ReadOutcome outcome = ReadOutcome::end;
     std::string body;  ///< of a message; else what was wrong
   };
 
@@ -38,8 +38,8 @@ class MessageStream {
  private:
   /// What `buffer_` begins with, if it is whole.
   std::optional<Read> take();
-  enum class Filling { more, nothing, end };
-  Filling fill(std::optional<std::chrono::milliseconds> patience);
+  enum class FillResult { more, nothing, end };
+  FillResult fill(std::optional<std::chrono::milliseconds> patience);
 
   int in_;
   int out_;

@@ -15,8 +15,6 @@ namespace oriel::studio {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// A word of ours with its number in the protocol.
 struct ProtocolKind {
   std::string_view word{};
@@ -62,7 +60,7 @@ int severity_number(Severity severity) {
   return 3;
 }
 
-int from_zero(const Json& number) {
+int from_zero(const JsonValue& number) {
   constexpr std::int64_t kMost = std::numeric_limits<int>::max() - 1;
   return static_cast<int>(std::clamp<std::int64_t>(number.get<std::int64_t>(), 0, kMost)) + 1;
 }
@@ -70,16 +68,16 @@ int from_zero(const Json& number) {
 /// A client refuses a symbol without a name.
 std::string name_of(const OutlineItem& item) { return item.name.empty() ? "?" : item.name; }
 
-Json symbol_in_tree(const EditedPack& pack, const OutlineItem& item) {
-  Json symbol{{"name", name_of(item)},
-              {"kind", number_of(kSymbolKinds, item.kind)},
-              {"range", protocol_range(pack.places(), item.where)},
-              {"selectionRange", protocol_range(pack.places(), item.name_span)}};
+JsonValue symbol_in_tree(const EditedPack& pack, const OutlineItem& item) {
+  JsonValue symbol{{"name", name_of(item)},
+                   {"kind", number_of(kSymbolKinds, item.kind)},
+                   {"range", protocol_range(pack.places(), item.where)},
+                   {"selectionRange", protocol_range(pack.places(), item.name_span)}};
   if (!item.detail.empty()) symbol["detail"] = item.detail;
   return symbol;
 }
 
-Json symbol_in_list(const EditedPack& pack, const OutlineItem& item, const std::string& uri) {
+JsonValue symbol_in_list(const EditedPack& pack, const OutlineItem& item, const std::string& uri) {
   return {{"name", name_of(item)},
           {"kind", number_of(kSymbolKinds, item.kind)},
           {"containerName", item.section},
@@ -94,31 +92,31 @@ std::size_t line_begin(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-Json position_json(TextPlace place) {
+JsonValue position_json(TextPlace place) {
   return {{"line", place.line - 1}, {"character", place.column - 1}};
 }
 
-Json protocol_range(const TextPlaces& places, TextSpan where) {
+JsonValue protocol_range(const TextPlaces& places, TextSpan where) {
   return {{"start", position_json(places.place(where.begin))},
           {"end", position_json(places.place(where.end))}};
 }
 
-TextPlace place_of_position(const Json& position) {
+TextPlace place_of_position(const JsonValue& position) {
   return {from_zero(position.at("line")), from_zero(position.at("character"))};
 }
 
-Json edits_json(const TextPlaces& places, const std::vector<TextEdit>& edits) {
-  Json list = Json::array();
+JsonValue edits_json(const TextPlaces& places, const std::vector<TextEdit>& edits) {
+  JsonValue list = JsonValue::array();
   for (const TextEdit& edit : edits)
     list.push_back({{"range", protocol_range(places, edit.where)}, {"newText", edit.text}});
   return list;
 }
 
-Json diagnostic_json(const EditedPack& pack, const TextFinding& finding,
-                     const std::string& docs_url) {
-  Json diagnostic{{"range", protocol_range(pack.places(), finding.where)},
-                  {"severity", severity_number(finding.severity)},
-                  {"code", to_string(finding.code)}};
+JsonValue diagnostic_json(const EditedPack& pack, const TextFinding& finding,
+                          const std::string& docs_url) {
+  JsonValue diagnostic{{"range", protocol_range(pack.places(), finding.where)},
+                       {"severity", severity_number(finding.severity)},
+                       {"code", to_string(finding.code)}};
   if (!docs_url.empty() && !page_of(finding.code).empty())
     diagnostic["codeDescription"]["href"] =
         fmt::format("{}/{}#{}", docs_url, document_of(finding.code), anchor_of(finding.code));
@@ -127,10 +125,10 @@ Json diagnostic_json(const EditedPack& pack, const TextFinding& finding,
   return diagnostic;
 }
 
-Json completion_json(const EditedPack& pack, std::size_t offset) {
-  Json items = Json::array();
+JsonValue completion_json(const EditedPack& pack, std::size_t offset) {
+  JsonValue items = JsonValue::array();
   for (const Completion& completion : pack.complete(offset)) {
-    Json item{{"label", completion.label}, {"kind", number_of(kItemKinds, completion.kind)}};
+    JsonValue item{{"label", completion.label}, {"kind", number_of(kItemKinds, completion.kind)}};
     item["detail"] = completion.detail.empty()
                          ? completion.kind
                          : fmt::format("{}: {}", completion.kind, completion.detail);
@@ -144,9 +142,9 @@ Json completion_json(const EditedPack& pack, std::size_t offset) {
   return {{"isIncomplete", false}, {"items", std::move(items)}};
 }
 
-Json symbols_json(const EditedPack& pack, const std::string& uri, bool is_tree) {
+JsonValue symbols_json(const EditedPack& pack, const std::string& uri, bool is_tree) {
   const std::vector<OutlineItem> outline = pack.outline();
-  Json symbols = Json::array();
+  JsonValue symbols = JsonValue::array();
   if (!is_tree) {
     for (const OutlineItem& item : outline) symbols.push_back(symbol_in_list(pack, item, uri));
     return symbols;

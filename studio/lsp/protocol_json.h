@@ -2,32 +2,31 @@
 
 #include "oriel/editing.h"
 #include "studio/lsp/documents.h"
+#include "studio/lsp/json_value.h"
 
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace oriel::studio {
 
 /// Values of the Language Server Protocol. Its lines and columns count from 0, in units of UTF-16.
 
-nlohmann::ordered_json position_json(TextPlace place);
-nlohmann::ordered_json protocol_range(const TextPlaces& places, TextSpan where);
+JsonValue position_json(TextPlace place);
+JsonValue protocol_range(const TextPlaces& places, TextSpan where);
 /// Throws nlohmann::json::exception if it is no position.
-TextPlace place_of_position(const nlohmann::ordered_json& position);
+TextPlace place_of_position(const JsonValue& position);
 
 /// Edits of one file, `uri`, as a WorkspaceEdit has them.
-nlohmann::ordered_json edits_json(const TextPlaces& places, const std::vector<TextEdit>& edits);
+JsonValue edits_json(const TextPlaces& places, const std::vector<TextEdit>& edits);
 
 /// A finding, with a link to the page of its code if `docs_url` is not empty.
-nlohmann::ordered_json diagnostic_json(const EditedPack& pack, const TextFinding& finding,
-                                       const std::string& docs_url);
+JsonValue diagnostic_json(const EditedPack& pack, const TextFinding& finding,
+                          const std::string& docs_url);
 
-nlohmann::ordered_json completion_json(const EditedPack& pack, std::size_t offset);
+JsonValue completion_json(const EditedPack& pack, std::size_t offset);
 
 /// Sections with what is in them; flat, as SymbolInformation, for clients that know no tree.
-nlohmann::ordered_json symbols_json(const EditedPack& pack, const std::string& uri, bool is_tree);
+JsonValue symbols_json(const EditedPack& pack, const std::string& uri, bool is_tree);
 
 /// The change that makes `before` to `after`, in whole lines; nothing if they are the same.
 std::vector<TextEdit> changed_lines(const std::string& before, const std::string& after);

@@ -107,7 +107,7 @@ class LspClient {
  private:
   Json next_from_server() {
     const auto read = stream_.read(std::chrono::seconds(20));
-    REQUIRE(read.outcome == studio::MessageStream::Outcome::message);
+    REQUIRE(read.outcome == studio::MessageStream::ReadOutcome::message);
     return Json::parse(read.body);
   }
 
