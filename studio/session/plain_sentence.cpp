@@ -33,7 +33,7 @@ class SentenceOfFeature {
     const std::string& label = label_of(feature_);
     std::string text = fmt::format("{}: {} {} {}", label.empty() ? "unknown" : label, size(),
                                    kind_word(what_.sense), place());
-    for (const std::string& part : {depth(), height(), storey(), company()})
+    for (const std::string& part : {depth(), height(), company()})
       if (!part.empty()) text += ", " + part;
     return text;
   }
@@ -107,12 +107,6 @@ class SentenceOfFeature {
     if (!base || !is_on_wall()) return "";
     if (std::abs(*base) < kFlat_m) return "from the ground up";
     return *base > 0 ? length(*base) + " above the ground" : length(-*base) + " below the ground";
-  }
-
-  [[nodiscard]] std::string storey() const {
-    const auto storey = number(Attribute::storey);
-    if (!storey || *storey < 1) return "";
-    return fmt::format("in storey {:.0f}", *storey + 1);
   }
 
   /// "one of a row of four": those with the same label in the same storey of the same facade.

@@ -47,7 +47,7 @@ export interface Finding {
   code: string; severity: 'error' | 'warning' | 'note'; sentence: string; advice: string;
   line: number; column: number; end_line: number; end_column: number; fixes: Fix[];
 }
-export interface ClassEntry { name: string; parent: string | null; line: number }
+export interface ClassEntry { name: string; parent: string | null; line: number; is_abstract?: boolean }
 export interface ParamEntry {
   name: string; value: number; unit: string; text: string; from: number | null; to: number | null; reason: string; line: number;
 }
@@ -71,6 +71,8 @@ export interface PackQuestion { text: string; version: number; params?: Record<s
 
 export interface ConditionRow {
   text: string; found: string; asked: string; holds: boolean | null; line: number | null; depth: number; missed_by?: string;
+  /** Of a term of a score, which neither holds nor fails: 0 to 1, and how much it counts. */
+  score?: number | null; weight?: number;
 }
 export interface RuleReason {
   rule: string; label: string; holds: boolean | null; line: number | null; conditions: ConditionRow[];

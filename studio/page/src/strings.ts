@@ -57,7 +57,7 @@ export const words = {
     tools: 'Tools of the picture', fit: 'See everything', hiddenLines: 'Hidden lines', section: 'Cut', measure: 'Measure', relations: 'Relations',
     changes: 'What changed', truth: 'Truth', colours: 'Colours', colour: 'Colours', pattern: 'Patterns', heat: 'Heat map', heatOf: 'Heat map of',
     heatKinds: {unknown: 'unknown parts', doubtful: 'doubtful parts', wrong: 'wrong parts', changed: 'changed parts'},
-    unknown: 'unknown', measureHint: 'Click two points. Corners attract; Esc ends it.',
+    unknown: 'unknown', surface: 'surface', measureHint: 'Click two points. Corners attract; Esc ends it.',
     distance: (all: number, level: number, up: number) =>
       up < 0.005 || level < 0.005 ? `${all.toFixed(2)} m` : `${all.toFixed(2)} m  (${level.toFixed(2)} level, ${up.toFixed(2)} up)`
   },
@@ -91,6 +91,10 @@ export const words = {
     others: (n: number) => `${count(n, 'rule does', 'rules do')} not hold`, line: (n: number) => `line ${n}`, corrected: (name: string) => `Corrected by hand: ${name}`, onlyRelation: 'Draw the lines of this relation only',
     more: (n: number) => `and ${n.toLocaleString('en')} more`, attributes: (n: number) => `All ${n} measures`,
     found: (n: number) => count(n, 'part', 'parts'),
+    senses: {hole: 'hole', protrusion: 'protrusion', cavity: 'cavity', imprint: 'panel'}, senseIs: (sense: string) => `is a ${sense}`,
+    mustBe: (sense: string) => `must be a ${sense}`, mustBeOneOf: (list: string[]) => `must be a ${list.join(' or a ')}`,
+    scores: (score: number) => `scores ${score.toFixed(2)}`, andMore: (n: number) => `${n} more`, otherLabels: (n: number) => count(n, 'label is', 'labels are') + ' farther away',
+    bySurfaceRule: (rule: string) => `The rule ${rule} says so.`, measures: 'Measures', rules: 'Rules in their order',
     surfaceName: (type: string) => ({WallSurface: 'Wall', RoofSurface: 'Roof', GroundSurface: 'Ground', OuterFloorSurface: 'Outer floor',
       OuterCeilingSurface: 'Outer ceiling', ClosureSurface: 'Closure'} as Record<string, string>)[type] ?? (type || 'Surface'),
     building: (w: number, d: number, h: number, n: number) =>

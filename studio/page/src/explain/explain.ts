@@ -1,11 +1,11 @@
 // What is chosen, in words: one plain sentence, then why, why not something else, what would change it, and how it lies to others.
 import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
-import {namesOf} from '../scene/bind_scene';
 import {looksOf, patchStyle} from '../scene/palette';
 import type {AttributeEntry, ConditionRow, ExplainAnswer, NearestMiss, Part, RelationEntry, RuleReason} from '../source';
 import {labelOf, type Selection} from '../store';
 import {words} from '../strings';
+import {isCode, missesOf, plainWords, surfaceReason} from './plain_words';
 
 export function explainPanel(app: App): Panel {
   const element = el('div', {class: 'panel explain'});
@@ -79,7 +79,7 @@ function featureContent(app: App, [building, feature]: Part, answer: ExplainAnsw
   const {classes, geometry} = app.store.value;
   const label = answer.label ?? words.scene.unknown;
   const number = classes.findIndex(({name}) => name === answer.label);
-  const look = number >= 0 ? looksOf(namesOf(app), app.store.value.colours === 'pattern')[number]! : null;
+  const look = number >= 0 ? looksOf(classes, app.store.value.colours === 'pattern')[number]! : null;
   const about = geometry.get(building)?.features[feature];
   const [first, ...rest] = splitSentence(answer.sentence, label);
   const content: (HTMLElement | null)[] = [
@@ -90,7 +90,7 @@ function featureContent(app: App, [building, feature]: Part, answer: ExplainAnsw
     answer.flip ? el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line)) : null,
     app.partTools?.([building, feature], answer) ?? null,
     section(words.explain.why, 'why', answer.why.filter(isReason).map(rule => ruleElement(app, rule, rule.rule === answer.rule)), words.explain.noRule),
-    section(words.explain.whyNot, 'whynot', [...answer.why_not.map(miss => missElement(app, miss)), othersElement(app, answer.why.filter(rule => !isReason(rule)))]),
+    section(words.explain.whyNot, 'whynot', [...missElements(app, answer.why_not), othersElement(app, answer.why.filter(rule => !isReason(rule)))]),
     section(words.explain.relations, 'relations', answer.relations.filter(r => r.features.length > 0).map(r => relationElement(app, building, r))),
     attributesElement(answer.attributes),
     answer.head ? el('p', {class: 'quiet small', id: 'head'}, answer.head) : null,
@@ -136,7 +136,7 @@ function ruleElement(app: App, rule: RuleReason, isOpen: boolean): HTMLElement {
   return el('details', {class: 'rule', open: isOpen, 'data-rule': rule.rule}, el('summary', {},
     el('span', {class: `rule-state ${kindOf(rule.holds)}`}, saidOf(rule.holds)),
     el('code', {}, rule.rule), rule.label ? ` → ${rule.label}` : '',
-    obstacle ? el('span', {class: 'obstacle quiet'}, obstacle.found || obstacle.text) : null),
+    obstacle ? el('span', {class: 'obstacle quiet'}, plainWords(obstacle.found || obstacle.text)) : null),
     el('ul', {class: 'conditions'}, ...rule.conditions.map(conditionElement)), lineLink(app, rule.line),
     rule.place ? el('span', {class: 'quiet small'}, rule.place) : null);
 }
@@ -146,15 +146,33 @@ const saidOf = (holds: boolean | null) => (holds === null ? words.explain.isOpen
 
 /** What was found first, then what was asked; the pack's own words where nothing was found. */
 function conditionElement(condition: ConditionRow): HTMLElement {
-  const {holds, found, asked, text, depth, missed_by} = condition;
-  return el('li', {class: `condition is-${kindOf(holds)}`, style: {'--depth': String(depth)}, title: text},
-    el('span', {class: 'mark', role: 'img', 'aria-label': saidOf(holds)}, {open: '?', good: '✓', grave: '✗'}[kindOf(holds)]),
-    el('span', {class: 'found'}, found || text),
-    asked || missed_by ? el('span', {class: 'asked quiet'}, [asked, missed_by].filter(Boolean).join(', ')) : null);
+  const {holds, found, asked, text, depth, missed_by, score} = condition;
+  const isTerm = score !== undefined;
+  const kind = isTerm ? 'term' : kindOf(holds);
+  const main = found || text;
+  const more = [asked, missed_by, typeof score === 'number' ? words.explain.scores(score) : ''].filter((part): part is string => Boolean(part));
+  return el('li', {class: `condition is-${kind}`, style: {'--depth': String(depth)}, title: text},
+    el('span', {class: 'mark', role: 'img', 'aria-label': isTerm ? words.explain.scores(score ?? 0) : saidOf(holds)}, {open: '?', good: '✓', grave: '✗', term: '·'}[kind]),
+    el(isCode(plainWords(main)) ? 'code' : 'span', {class: 'found'}, plainWords(main)),
+    more.length > 0 ? el('span', {class: 'asked quiet'}, more.map(plainWords).join(', ')) : null);
+}
+
+const kMisses = 4, kReasons = 2;
+
+/** The labels that come nearest; those farther away stay folded. */
+function missElements(app: App, misses: NearestMiss[]): HTMLElement[] {
+  const far = misses.slice(kMisses);
+  const box = el('details', {class: 'others', hidden: far.length === 0}, el('summary', {}, words.explain.otherLabels(far.length)),
+    el('div', {}, ...far.map(miss => missElement(app, miss))));
+  return [...misses.slice(0, kMisses).map(miss => missElement(app, miss)), box];
 }
 
 function missElement(app: App, miss: NearestMiss): HTMLElement {
-  return el('p', {class: 'miss'}, el('strong', {}, miss.label), ': ', miss.sentence, ' ', el('code', {class: 'quiet'}, miss.rule), ' ', lineLink(app, miss.line));
+  const reasons = missesOf(miss.sentence);
+  const more = reasons.length - kReasons;
+  return el('div', {class: 'miss', title: reasons.join('\n')}, el('p', {}, el('strong', {}, miss.label), ' ', el('code', {class: 'quiet'}, miss.rule), ' ', lineLink(app, miss.line)),
+    el('ul', {class: 'reasons'}, ...reasons.slice(0, kReasons).map(reason => el('li', {}, reason)),
+      more > 0 ? el('li', {class: 'quiet'}, words.explain.andMore(more)) : null));
 }
 
 function relationElement(app: App, building: number, relation: RelationEntry): HTMLElement {
@@ -181,7 +199,19 @@ function attributesElement(attributes: AttributeEntry[]): HTMLElement | null {
 // ---- a surface, a building, several parts ----
 
 function surfaceContent(type: string, why: string): HTMLElement[] {
-  return [el('h2', {id: 'chosen'}, words.explain.surfaceName(type)), ...why.split('\n').filter(Boolean).map(text => el('p', {class: 'why-line'}, text))];
+  const reason = surfaceReason(why);
+  const isRuled = reason.rule !== '';
+  return [
+    el('h2', {id: 'chosen'}, words.explain.surfaceName(type)),
+    el('p', {class: 'why-line'}, isRuled ? words.explain.bySurfaceRule(reason.rule) : why),
+    ...(isRuled ? [
+      el('section', {class: 'part'}, el('h3', {}, words.explain.measures), el('table', {class: 'counts'}, ...reason.measures.map(({name, value, meaning}) =>
+        el('tr', {title: meaning}, el('th', {scope: 'row'}, name), el('td', {class: 'number'}, value))))),
+      el('section', {class: 'part'}, el('h3', {}, words.explain.rules), el('ul', {class: 'conditions'}, ...reason.rules.map(({rule, holds, text}) =>
+        el('li', {class: `condition is-${kindOf(holds)}`}, el('span', {class: 'mark', role: 'img', 'aria-label': saidOf(holds)}, holds ? '✓' : '✗'),
+          el('code', {class: 'found'}, rule), el('span', {class: 'asked quiet'}, text)))))
+    ] : [])
+  ];
 }
 
 function buildingContent(app: App, building: number): HTMLElement[] {

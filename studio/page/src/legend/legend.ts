@@ -1,7 +1,6 @@
 // The labels with their colours and counts, as a filter: each can be hidden or shown alone.
 import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
-import {namesOf} from '../scene/bind_scene';
 import {looksOf, patchStyle, surfaceColours, type Look} from '../scene/palette';
 import {icon} from '../shell/icons';
 import {words} from '../strings';
@@ -29,8 +28,7 @@ export function legendPanel(app: App): Panel {
 
 function rowsOf(app: App): Row[] {
   const {counts, unknown, classes, colours} = app.store.value;
-  const names = namesOf(app);
-  const looks = looksOf(names, colours === 'pattern');
+  const looks = looksOf(classes, colours === 'pattern');
   const number = new Map(counts.map(entry => [entry.class, entry.count]));
   const rows: Row[] = classes.flatMap(({name}, label) => {
     const count = number.get(name) ?? 0;

@@ -13,6 +13,8 @@ import {looksOf, rgb, type Look} from './palette';
 /** More marks than these hide the building; the list of changes has them all. */
 const kMostMarks = 24;
 const kMostLines = 60;
+/** A relation to more others is drawn only when it is asked for by its name. */
+const kMostUnasked = 3;
 
 export function bindScene(scene: BuildingScene, app: App): void {
   const {store} = app;
@@ -42,11 +44,9 @@ export function paintOf(app: App, looks: Look[]): Paint {
   };
 }
 
-export function namesOf(app: App): string[] { return app.store.value.classes.map(({name}) => name); }
-
 export const kSceneColours = {
-  light: {ground: '#f6f5f2', accent: '#ffb000', change: '#a3271b', edge: '#2b3036'},
-  dark: {ground: '#16191c', accent: '#ffb000', change: '#ff8d80', edge: '#0c0e10'}
+  light: {ground: '#f6f5f2', accent: '#ffb000', change: '#a3271b', edge: '#2b3036', brightness: 1},
+  dark: {ground: '#16191c', accent: '#ffb000', change: '#ff8d80', edge: '#0c0e10', brightness: 0.9}
 };
 
 class Binding {
@@ -59,12 +59,12 @@ class Binding {
   constructor(private readonly scene: BuildingScene, private readonly app: App, private readonly overlay: Overlay) {}
 
   paint(): Paint {
-    const names = namesOf(this.app);
-    const isPattern = this.app.store.value.colours === 'pattern';
-    const key = JSON.stringify([names, isPattern]);
+    const {classes, colours} = this.app.store.value;
+    const isPattern = colours === 'pattern';
+    const key = JSON.stringify([classes.map(({name, is_abstract}) => [name, is_abstract]), isPattern]);
     if (key !== this.looksKey) {
       this.looksKey = key;
-      this.looks = looksOf(names, isPattern);
+      this.looks = looksOf(classes, isPattern);
     }
     return paintOf(this.app, this.looks);
   }
@@ -89,8 +89,9 @@ class Binding {
   takeTruth(): void {
     const {truth, shows_truth} = this.app.store.value;
     if (!shows_truth) return this.scene.setExtraLines(null);
-    const looks = looksOf(namesOf(this.app), false);
-    const byClass = new Map(namesOf(this.app).map((name, i) => [name, looks[i]!.colour]));
+    const {classes} = this.app.store.value;
+    const looks = looksOf(classes, false);
+    const byClass = new Map(classes.map(({name}, i) => [name, looks[i]!.colour]));
     this.scene.setExtraLines(new Float32Array(truth.flatMap(object => boxLines(object.box_mm))),
       new Float32Array(truth.flatMap(object => Array(24).fill(rgb(byClass.get(object.class) ?? '#000000').map(c => c / 255)).flat())));
   }
@@ -107,7 +108,7 @@ class Binding {
     if (!from) return;
     const lines: OverlayLine[] = [];
     for (const entry of entries) {
-      if (relation !== null && entry.name !== relation) continue;
+      if (relation !== null ? entry.name !== relation : entry.features.length > kMostUnasked) continue;
       for (const feature of entry.features) {
         const to = this.scene.centreOf([part[0], feature]);
         if (to && lines.length < kMostLines)
@@ -187,10 +188,10 @@ class Binding {
     this.overlay.say(now ? this.nameOf(now) : null, event.clientX, event.clientY);
   }
 
-  private nameOf({building, feature}: Selection): string {
+  private nameOf({building, feature, polygon}: Selection): string {
     const {geometry, classes, buildings} = this.app.store.value;
     const entry = buildings[building]?.id ?? '';
-    if (feature === undefined) return entry;
+    if (feature === undefined) return buildings.length > 1 || polygon === undefined ? entry : words.scene.surface;
     const label = classes[labelOf(this.app.store.value, building, feature)]?.name ?? words.scene.unknown;
     const name = geometry.get(building)?.features[feature]?.name ?? '';
     return name && name !== label ? `${label} · ${name}` : label;

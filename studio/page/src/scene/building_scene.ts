@@ -112,7 +112,8 @@ export class BuildingScene {
     this.requestRender();
   }
 
-  setColours(colours: {ground: string; accent: string; change: string; edge: string}): void {
+  setColours(colours: {ground: string; accent: string; change: string; edge: string; brightness: number}): void {
+    this.uniforms.brightness.value = colours.brightness;
     for (const name of ['ground', 'accent', 'change', 'edge'] as const)
       this.uniforms[name].value.fromArray(rgb(colours[name]).map(c => c / 255));
     this.renderer?.setClearColor(parseInt(colours.ground.slice(1), 16));

@@ -6,8 +6,8 @@ const kFieldDeg = 40;
 const kTurn = Math.PI / 24;
 const kFlightMs = 320;
 /** A part is shown with some of what is around it. */
-const kContext = 2.4;
-const kLeastRadiusM = 1.5;
+const kContext = 2;
+const kLeastRadiusM = 3;
 const kMargin = 1.12;
 const kFirstDirection = new Vector3(0.5, -0.8, 0.5).normalize();
 

@@ -2,7 +2,7 @@
 import type {App} from '../app';
 import {el} from '../dom';
 import {words} from '../strings';
-import {kSceneColours, namesOf, paintOf} from './bind_scene';
+import {kSceneColours, paintOf} from './bind_scene';
 import {BuildingScene, type SceneBuilding} from './building_scene';
 import {looksOf} from './palette';
 
@@ -75,8 +75,8 @@ export class Divider {
 
   private paint(): void {
     if (!this.second || this.line.hidden) return;
-    const {colours, is_dark} = this.app.store.value;
-    const paint = paintOf(this.app, looksOf(namesOf(this.app), colours === 'pattern'));
+    const {classes, colours, is_dark} = this.app.store.value;
+    const paint = paintOf(this.app, looksOf(classes, colours === 'pattern'));
     this.second.setColours(kSceneColours[is_dark ? 'dark' : 'light']);
     this.second.setPaint({...paint, changed: [], ...(this.labels ? {labels: this.labels} : {})});
   }

@@ -8,7 +8,7 @@ export const kFlag = {hidden: 1, selected: 2, hover: 4, changed: 8, found: 16, f
 
 export interface Uniforms {
   [name: string]: {value: unknown};
-  state: {value: DataTexture}; palette: {value: DataTexture}; cut: {value: Vector4}; period: {value: number};
+  state: {value: DataTexture}; palette: {value: DataTexture}; cut: {value: Vector4}; period: {value: number}; brightness: {value: number};
   ground: {value: Vector3}; accent: {value: Vector3}; change: {value: Vector3}; edge: {value: Vector3};
 }
 
@@ -27,7 +27,7 @@ export function paletteTexture(): DataTexture {
 
 export function makeUniforms(): Uniforms {
   return {
-    state: {value: stateTexture(1)}, palette: {value: paletteTexture()}, cut: {value: new Vector4(0, 0, 0, 0)}, period: {value: 0.3},
+    state: {value: stateTexture(1)}, palette: {value: paletteTexture()}, cut: {value: new Vector4(0, 0, 0, 0)}, period: {value: 0.3}, brightness: {value: 1},
     ground: {value: new Vector3(1, 1, 1)}, accent: {value: new Vector3()}, change: {value: new Vector3()}, edge: {value: new Vector3()}
   };
 }
@@ -60,6 +60,7 @@ const kFaceFragment = `
   uniform vec4 cut;
   uniform float period;
   uniform vec3 ground, accent, change;
+  uniform float brightness;
   in vec3 vNormal;
   in vec3 vWorld;
   in vec2 vPlane;
@@ -102,9 +103,8 @@ const kFaceFragment = `
     vec3 c = base * shade;
     if ((vEntry.g & ${kFlag.faint}) != 0) c = mix(c, ground, .62);
     if ((vEntry.g & ${kFlag.changed}) != 0) c = mix(c, change, .5 * line((gl_FragCoord.x + gl_FragCoord.y) / 9., .22));
-    if ((vEntry.g & ${kFlag.found}) != 0) c = mix(c, accent, .12);
-    if ((vEntry.g & ${kFlag.hover}) != 0) c = mix(c, accent, .22);
-    if ((vEntry.g & ${kFlag.selected}) != 0) c = mix(c, accent, .16);
+    if ((vEntry.g & ${kFlag.hover}) != 0) c = mix(c, vec3(1.), .22);
+    c *= brightness;
     // The inside of what is cut open.
     if (!gl_FrontFacing && dot(cut.xyz, cut.xyz) > .5) c = mix(ground * .55, c, .25);
     colour = vec4(c, 1.);

@@ -11,21 +11,23 @@ const kColours = palette.labels.length;
 
 /** Looks of the classes, in their order. A usual label keeps its colour in every pack; the others take what is left. After the last
     colour they begin again, told apart by a pattern even where only colours were asked for. */
-export function looksOf(classes: readonly string[], withPatterns: boolean): Look[] {
+export function looksOf(classes: readonly {name: string; is_abstract?: boolean}[], withPatterns: boolean): Look[] {
   const slots = new Map<string, number>();
   const taken = new Set<number>();
-  for (const name of classes) {
+  for (const {name} of classes) {
     const slot = usual.get(name.toLowerCase().replaceAll('_', ' '));
     if (slot !== undefined && !taken.has(slot)) { slots.set(name, slot); taken.add(slot); }
   }
   let next = 0;
-  for (const name of classes) {
+  // No part has the label of an abstract class.
+  const inTurn = [...classes].sort((a, b) => Number(a.is_abstract ?? false) - Number(b.is_abstract ?? false));
+  for (const {name} of inTurn) {
     if (slots.has(name)) continue;
     while (taken.has(next)) ++next;
     slots.set(name, next);
     taken.add(next);
   }
-  return classes.map(name => {
+  return classes.map(({name}) => {
     const slot = slots.get(name)!;
     const round = Math.floor(slot / kColours);
     const pattern = withPatterns ? 1 + (slot + round) % (kPatterns - 1) : round === 0 ? 0 : 1 + (round - 1) % (kPatterns - 1);
