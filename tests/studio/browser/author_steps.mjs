@@ -1,0 +1,197 @@
+// The steps of an author's day, each with a page of the studio in which it is taken; author_day.mjs puts them in order.
+import assert from 'node:assert/strict';
+
+const kWait_ms = 8000;
+
+/** Waits until `test` holds, looking again and again: the page's Content-Security-Policy lets no test be sent into it. */
+async function until(what, test) {
+  const end = Date.now() + kWait_ms;
+  while (!await test()) {
+    assert.ok(Date.now() < end, `the page never came to: ${what}`);
+    await new Promise(resolve => setTimeout(resolve, 30));
+  }
+}
+
+/** Waits until an element says what `pattern` matches. */
+export async function says(page, selector, pattern) {
+  await until(`${selector} says ${pattern}`, async () =>
+    pattern.test(await page.evaluate(where => [...document.querySelectorAll(where)].map(element => element.textContent).join('\n'), selector)));
+}
+
+/** What the page knows: the fields of its store that steps ask for. */
+export const known = page => page.evaluate(() => {
+  const {text, is_good, counts, score, found, selection, unknown} = window.oriel.store.value;
+  return {text, is_good, counts, score, found, selection, unknown};
+});
+
+/** Waits until what the page knows passes a test. */
+export async function knows(page, test) { await until(String(test), async () => test(await known(page))); }
+
+export const front = (page, tab) => page.click(`#tab-${tab}`);
+
+async function countOf(page, name) {
+  return (await known(page)).counts.find(entry => entry.class === name)?.count ?? 0;
+}
+
+/** Puts the cursor behind the first place where the pack has `text`, with that text chosen. */
+async function chooseText(page, text) {
+  await page.click('.panel.editor .cm-content');
+  await page.keyboard.press('Control+f');
+  await page.fill('.cm-search input[name=search]', text);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Escape');
+}
+
+/** From nothing to windows and doors: one of the beginnings that an empty editor offers. */
+export async function beginPack(page, picture) {
+  assert.equal((await known(page)).text, '');
+  await page.click('.starters button >> nth=0');
+  await knows(page, values => values.is_good && values.counts.length === 2 && values.score !== null);
+  assert.ok(await countOf(page, 'window') > 0);
+  assert.ok(await countOf(page, 'door') > 0);
+  await picture('pack');
+}
+
+/** A mistake is underlined with its advice while the labels stay, and the fix mends it. */
+export async function mendMistake(page, picture) {
+  const counts = (await known(page)).counts;
+  await chooseText(page, 'height >= 0.4 m');
+  await page.keyboard.type('heigth >= 0.4 m');
+  await page.waitForSelector('.cm-lintRange-error', {timeout: kWait_ms});
+  await says(page, '.status', /last good version/);
+  assert.deepEqual((await known(page)).counts, counts);
+  if (!await page.isVisible('.findings-list')) await page.click('.findings summary');
+  await picture('mistake');
+  await page.click('.findings .fix >> nth=0');
+  await knows(page, values => values.is_good);
+  assert.match((await known(page)).text, /height >= 0\.4 m/);
+  await page.waitForSelector('.cm-lintRange-error', {state: 'detached'});
+}
+
+/** Completion inside an expression knows attributes with unit and meaning, and hover says what a word is. */
+export async function complete(page, picture) {
+  await chooseText(page, 'height >= 0.4 m');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.type(' and base_h');
+  await says(page, '.cm-tooltip-autocomplete', /base_height/);
+  await page.waitForTimeout(100);  // an answer to an older text may be drawn still, and Enter waits as long
+  await picture('completion');
+  await page.keyboard.press('Enter');
+  await page.keyboard.type(' >= 0 m');
+  await knows(page, values => values.is_good && /base_height >= 0 m/.test(values.text));
+}
+
+/** A threshold is dragged away, F1 falls, and the curve leads back to its peak. */
+export async function dragThreshold(page, picture) {
+  await front(page, 'params');
+  const row = '[data-param=door_height]';
+  await page.waitForSelector(`${row} .curve-line`, {timeout: kWait_ms});
+  const slider = page.locator(`${row} .param-slider`);
+  await slider.scrollIntoViewIfNeeded();
+  const before = (await known(page)).score.macro_f1;
+  const box = await slider.boundingBox();
+  const y = box.y + box.height / 2;
+  await page.mouse.move(box.x + box.width * 0.3, y);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width - 4, y, {steps: 6});
+  await page.mouse.up();
+  await knows(page, values => values.score.macro_f1 < before);
+  await page.waitForSelector(`${row} .param-best:not([hidden])`, {timeout: kWait_ms});
+  await picture('threshold');
+  await page.click(`${row} .param-best`);
+  await knows(page, values => values.score.macro_f1 >= before);
+  assert.match((await known(page)).text, /door_height: \{value: [\d.]+ m, range: 1\.5 m/);
+}
+
+/** What the last edit changed is listed, label before and after. */
+export async function seeChanges(page, picture) {
+  await front(page, 'changes');
+  await says(page, '.change-group', /→/);
+  await page.click('.change-group summary');
+  await picture('changes');
+  await page.click('.change-items .tree-row >> nth=0');
+  await knows(page, values => values.selection?.feature !== undefined);
+}
+
+/** The confusion table leads to the parts behind a number. */
+export async function seeTruth(page, picture) {
+  await front(page, 'truth');
+  await page.waitForSelector('.confusion');
+  await page.click('.confusion .is-right button >> nth=0');
+  await knows(page, values => values.found.length > 0);
+  await front(page, 'truth');
+  await picture('truth');
+}
+
+/** A label is corrected by keyboard, and the correction is withdrawn. */
+export async function correctLabel(page, picture, correctionsOnDisk) {
+  const part = (await known(page)).found[0];
+  await page.evaluate(([building, feature]) => window.oriel.select({building, feature}, true), part);
+  await page.click('#panel-explain .part-tools .button');
+  await page.keyboard.type('door');
+  await page.waitForTimeout(50);
+  await picture('correction');
+  await page.keyboard.press('Enter');
+  await front(page, 'samples');
+  await says(page, '.sample-list', /door/);
+  assert.match(correctionsOnDisk(), /"class": ?"door"/);
+  await page.click('.sample-list .icon-button');
+  await page.waitForSelector('.sample-list .icon-button', {state: 'detached'});
+  assert.doesNotMatch(correctionsOnDisk(), /"class": ?"door"/);
+}
+
+/** Learning proposes, and the pack changes only when the proposal is accepted. */
+export async function learn(page, picture) {
+  const text = (await known(page)).text;
+  const before = (await known(page)).score.macro_f1;
+  await page.click('.learn .button-main');
+  await page.waitForSelector('.proposal .cm-editor', {timeout: kWait_ms});
+  assert.equal((await known(page)).text, text);
+  await page.locator('.proposal .button-main').scrollIntoViewIfNeeded();
+  await picture('proposal');
+  await page.click('.proposal .button-main');
+  await knows(page, values => values.text !== text);
+  await knows(page, values => values.is_good && values.score.macro_f1 >= before);
+}
+
+/** The slider of scales draws the generalised building beside the original. */
+export async function generalise(page, picture) {
+  await front(page, 'scale');
+  await page.locator('.scale-slider').focus();
+  await page.keyboard.press('End');
+  await page.waitForSelector('.divider', {timeout: kWait_ms});
+  await says(page, '.scale-outcomes', /omit/);
+  await page.waitForTimeout(400);
+  await picture('scale');
+  await page.keyboard.press('Home');
+  await page.waitForSelector('.divider', {state: 'hidden'});
+}
+
+/** The diff against the saved pack, and saving; the file has the pack in its canonical form. */
+export async function save(page, picture, packOnDisk) {
+  await front(page, 'editor');
+  await page.click('.pack-bar .tool[aria-pressed]');
+  await page.waitForSelector('.cm-changedLine');
+  await picture('diff');
+  await page.click('.pack-bar .tool[aria-pressed]');
+  await page.click('#save-pack');
+  await says(page, '.pack-state', /^saved$/);
+  assert.equal(packOnDisk(), (await known(page)).text);
+}
+
+/** Someone else writes the file: both texts are shown, and nothing is overwritten before the author has said so. */
+export async function resolveConflict(page, picture, packOnDisk, writePack) {
+  writePack(`# written by another\n${packOnDisk()}`);
+  await page.click('.panel.editor .cm-content');
+  await page.keyboard.press('Control+End');
+  await page.keyboard.type('# mine\n');
+  await page.keyboard.press('Control+s');
+  await page.waitForSelector('.dialog-conflict', {timeout: kWait_ms});
+  await says(page, '.dialog-conflict', /written by another/);
+  assert.match(packOnDisk(), /^# written by another/);
+  await picture('conflict');
+  await page.click('.dialog-conflict .button-main');
+  await says(page, '.pack-state', /^saved$/);
+  assert.doesNotMatch(packOnDisk(), /written by another/);
+  assert.match(packOnDisk(), /# mine/);
+}
