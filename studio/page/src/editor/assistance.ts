@@ -6,6 +6,7 @@ import {hoverTooltip, type EditorView, type Tooltip} from '@codemirror/view';
 
 import {el} from '../dom';
 import type {CompletionItem, Source} from '../source';
+import {proseOf} from './prose';
 import {changesOf, placeOf, rangeOf, smallestChange} from './text_places';
 
 // Kinds of the language service, as the editor's icons know them.
@@ -23,14 +24,6 @@ function question(state: EditorState, offset: number) {
 function infoOf(item: CompletionItem): (() => HTMLElement) | undefined {
   if (item.documentation === '') return undefined;
   return () => el('div', {class: 'hint'}, ...proseOf(item.documentation));
-}
-
-/** Prose with `code` in it: text and code elements, never markup. */
-export function proseOf(text: string): Node[] {
-  return text.split('\n').filter(line => line.trim() !== '').map(line => {
-    const pieces = line.split('`');
-    return el('p', {}, ...pieces.map((piece, at) => at % 2 === 1 ? el('code', {}, piece) : piece));
-  });
 }
 
 function completionOf(item: CompletionItem, rank: number): Completion {

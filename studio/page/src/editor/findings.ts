@@ -6,6 +6,7 @@ import type {EditorView} from '@codemirror/view';
 import {el, replace} from '../dom';
 import type {Finding, Fix} from '../source';
 import {words} from '../strings';
+import {inlineOf} from './prose';
 import {changesOf, visibleRangeOf} from './text_places';
 
 const kSeverities = {error: 'error', warning: 'warning', note: 'info'} as const;
@@ -22,7 +23,7 @@ function actionsOf(finding: Finding): Action[] {
 function messageOf(finding: Finding): HTMLElement {
   return el('div', {class: 'finding-text'},
     el('p', {}, finding.sentence, ' ', el('span', {class: 'code'}, finding.code)),
-    finding.advice !== '' && el('p', {class: 'advice'}, finding.advice));
+    finding.advice !== '' && el('p', {class: 'advice'}, ...inlineOf(finding.advice.replaceAll('\n', ' '))));
 }
 
 function diagnosticOf(doc: Text, finding: Finding): Diagnostic {
@@ -45,7 +46,7 @@ function itemOf(view: EditorView, finding: Finding, openLine: (line: number) => 
     el('button', {type: 'button', class: 'finding-place', onclick: () => openLine(finding.line)},
       el('span', {class: 'finding-line'}, words.editor.line(finding.line)),
       el('span', {}, finding.sentence)),
-    finding.advice !== '' && el('p', {class: 'advice'}, finding.advice),
+    finding.advice !== '' && el('p', {class: 'advice'}, ...inlineOf(finding.advice.replaceAll('\n', ' '))),
     fixes.length > 0 && el('p', {class: 'fixes'}, ...fixes));
 }
 

@@ -10,7 +10,7 @@ interface Choice { name: string; given: string | null }
 
 function choicesOf(app: App, correction: Correction | null): Choice[] {
   const {classes} = app.store.value;
-  const choices: Choice[] = classes.map(entry => ({name: entry.name, given: entry.name}));
+  const choices: Choice[] = classes.filter(entry => !entry.is_abstract).map(entry => ({name: entry.name, given: entry.name}));
   choices.push({name: words.correct.noClass, given: 'unknown'});
   if (correction) choices.unshift({name: words.correct.withdraw, given: null});
   return choices;
