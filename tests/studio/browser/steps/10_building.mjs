@@ -1,0 +1,133 @@
+export const title = 'a building is looked at, filtered, searched and explained';
+export const studio = {files: ['house.stripped.city.json', 'house.truth.json'], arguments: ['--truth', 'house.truth.json']};
+export const context = {viewport: {width: 1120, height: 640}, reducedMotion: 'reduce'};
+
+const kCanvas = '#scene canvas';
+
+export async function ready(page) {
+  await page.waitForFunction(() => document.documentElement.dataset.ready === 'yes' && Number(document.querySelector('#scene').dataset.drawCalls) > 0);
+}
+
+/** Two frames: what was asked for is drawn. */
+async function drawn(page) {
+  await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+async function pictureOf(page) {
+  await drawn(page);
+  return (await page.locator(kCanvas).screenshot()).toString('base64');
+}
+
+async function search(page, text) {
+  await page.fill('#search', text);
+  await page.press('#search', 'Enter');
+}
+
+async function middleOf(page) {
+  const {x, y, width, height} = await page.locator(kCanvas).boundingBox();
+  return [x + width / 2, y + height / 2];
+}
+
+async function filters({page, check, picture}) {
+  const row = '.legend-row[data-label=window]';
+  check(/16/.test(await page.textContent(row)), 'the legend counts sixteen windows');
+  const whole = await pictureOf(page);
+  await page.click(row);
+  check(await page.getAttribute(row, 'aria-pressed') === 'false', 'a click in the legend hides them');
+  check(await pictureOf(page) !== whole, 'in the picture, too');
+  await page.click('.legend-head .link');
+  check(await page.getAttribute(row, 'aria-pressed') === 'true', 'and show all brings them back');
+  await page.hover(row);
+  await page.click(`.legend-list li:has(${row}) .legend-only`);
+  check(await page.getAttribute('.legend-row[data-label=door]', 'aria-pressed') === 'false', 'only hides all others');
+  await picture('legend');
+  await page.click('.legend-head .link');
+}
+
+async function finds({page, check}) {
+  await search(page, 'door');
+  await page.waitForSelector('.found-list');
+  check(await page.locator('.found-list li').count() === 2, 'a label finds its parts');
+  await search(page, 'width > 3 m');
+  await page.waitForFunction(() => /width > 3 m/.test(document.querySelector('#chosen')?.textContent ?? ''));
+  check(await page.locator('.found-list li').count() > 0, 'an expression finds parts');
+  await search(page, 'nobody');
+  await page.waitForFunction(() => /Nothing is called/.test(document.querySelector('.status').textContent));
+  check(true, 'what is not there is told');
+}
+
+async function explains({page, check, picture}) {
+  await search(page, 'window 1 of facade west, storey 1');
+  await page.waitForSelector('#sentence');
+  await drawn(page);
+  check(await page.locator('.line-relation').count() > 0, 'its relations are lines');
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('Escape');
+  await page.mouse.click(...await middleOf(page));
+  await page.waitForSelector('#sentence');
+  check(await page.textContent('#chosen') === 'window', 'a click says what a part is');
+  check(/^A \d.*hole in a wall/.test(await page.textContent('#sentence')), `in a sentence: ${await page.textContent('#sentence')}`);
+  check(await page.locator('#why .is-good').count() > 0 && await page.locator('#whynot .miss').count() > 0, 'why, and why not');
+  const text = await page.textContent('#panel-explain');
+  check(!/sense (is|=)|\b[a-z]+_[a-z]+ is /.test(text.replace(/<code>.*?<\/code>/g, '')), 'without the names inside the engine');
+  const link = page.locator('#why .link').first();
+  const line = await link.getAttribute('data-line');
+  await picture('explanation');
+  await link.click();
+  await page.waitForFunction(at => document.querySelector('.cm-activeLineGutter')?.textContent === at, line);
+  check(true, 'and leads to the line of the pack');
+}
+
+async function looks({page, check}) {
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('f');
+  const whole = await pictureOf(page);
+  await page.click('#tool-hidden');
+  check(await pictureOf(page) !== whole, 'hidden lines are drawn');
+  await page.click('#tool-hidden');
+  await page.click('#tool-section');
+  await page.click('.storeys button >> nth=0');
+  check(await pictureOf(page) !== whole, 'a storey is cut open');
+  await page.check('#cut input[value=none]');
+  await page.click('#tool-section');
+  await page.focus('.picture');
+  await page.keyboard.press('ArrowLeft');
+  check(await pictureOf(page) !== whole, 'arrow keys turn it');
+  await page.click('#tool-measure');
+  const [x, y] = await middleOf(page);
+  await page.mouse.click(x, y);
+  await page.mouse.click(x + 60, y + 10);
+  check(/\d\.\d\d m/.test(await page.textContent('.label-measure')), `a distance is ${await page.textContent('.label-measure')}`);
+  await page.click('#tool-measure');
+  const inColours = await pictureOf(page);
+  await page.click('#tool-palette');
+  await page.check('input[value=pattern]');
+  check(await pictureOf(page) !== inColours, 'labels are shown by patterns');
+  await page.check('input[value=colour]');
+  await page.click('#tool-palette');
+}
+
+async function lists({page, check}) {
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('n');
+  await page.waitForFunction(() => /Unknown part 1 of 29/.test(document.querySelector('.status').textContent));
+  check(true, 'N goes to the first of what is unknown');
+  await page.click('#tab-list');
+  check(/house/.test(await page.textContent('.list-row')) && /29 unknown/.test(await page.textContent('.list-row')), 'the list has the building with its counts');
+  const calls = Number(await page.getAttribute('#scene', 'data-draw-calls'));
+  check(calls > 0 && calls <= 200, `${calls} draw calls`);
+  check(await page.evaluate(() => [...document.querySelectorAll('button, input, select')].every(element => element.getAttribute('aria-label') ||
+    element.textContent.trim() || element.labels?.length || element.title || element.closest('.cm-editor'))), 'everything that is pressed has a name');
+}
+
+export async function run(step) {
+  await step.page.goto(step.studio.address);
+  await ready(step.page);
+  await filters(step);
+  await finds(step);
+  await explains(step);
+  await looks(step);
+  await lists(step);
+}
