@@ -69,6 +69,7 @@ export const words = {
   legend: {
     title: 'Legend', unknown: 'unknown', surfaces: 'walls and roofs', all: 'Show all', only: 'only', show: 'Show', hide: 'Hide',
     row: (name: string, n: number) => `${name}, ${n.toLocaleString('en')}`, onlyOf: (name: string) => `Only ${name}`,
+    shareOf: (name: string) => `Share of ${name} in a building`,
     markAll: (name: string) => `Mark all: ${name}`
   },
   list: {

@@ -1,7 +1,8 @@
 // The labels with their colours and counts, as a filter: each can be hidden or shown alone.
 import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
-import {looksOf, patchStyle, surfaceColours, type Look} from '../scene/palette';
+import {sharesOf, topOf} from '../scene/heat';
+import {heatColour, looksOf, patchStyle, surfaceColours, type Look} from '../scene/palette';
 import {icon} from '../shell/icons';
 import {words} from '../strings';
 
@@ -13,9 +14,20 @@ interface Row { label: number; name: string; look: Look; count: number | null }
 export function legendPanel(app: App): Panel {
   const list = el('ul', {class: 'legend-list'});
   const all = el('button', {type: 'button', class: 'link small', onclick: () => setHidden(app, new Set())}, words.legend.all);
+  const scale = el('div', {class: 'legend-scale'});
+  const fold = el('button', {type: 'button', class: 'legend-fold', 'aria-expanded': 'true', onclick: () => {
+    const isOpen = fold.getAttribute('aria-expanded') !== 'true';
+    fold.setAttribute('aria-expanded', String(isOpen));
+    body.hidden = !isOpen;
+  }}, words.legend.title);
+  const body = el('div', {}, scale, list);
   const element = el('section', {class: 'legend', 'aria-label': words.legend.title},
-    el('div', {class: 'legend-head'}, el('h3', {}, words.legend.title), all), list);
-  app.store.watch(['classes', 'counts', 'unknown', 'filter', 'colours'], () => {
+    el('div', {class: 'legend-head'}, el('h3', {}, fold), all), body);
+  app.store.watch(['classes', 'counts', 'unknown', 'filter', 'colours', 'heat', 'labels'], () => {
+    const isHeat = app.store.value.colours === 'heat';
+    scale.hidden = !isHeat;
+    list.hidden = isHeat;
+    if (isHeat) return replace(scale, ...heatScale(app));
     const rows = rowsOf(app);
     const hidden = app.store.value.filter.hidden;
     all.hidden = hidden.size === 0;
@@ -24,6 +36,16 @@ export function legendPanel(app: App): Panel {
     if (focused) list.querySelector<HTMLElement>(`[data-key="${focused}"]`)?.focus();
   });
   return {id: 'legend', title: words.legend.title, element};
+}
+
+/** What the colours of the heat map mean. */
+function heatScale(app: App): HTMLElement[] {
+  const {heat, classes} = app.store.value;
+  const name = typeof heat === 'number' ? classes[heat]?.name ?? '' : words.scene.heatKinds[heat];
+  const percent = Math.round(100 * topOf(sharesOf(app.store.value)));
+  const colours = [0, 0.25, 0.5, 0.75, 1].map(heatColour).join(', ');
+  return [el('p', {class: 'small'}, words.legend.shareOf(name)), el('div', {class: 'legend-bar', style: {background: `linear-gradient(90deg, ${colours})`}}),
+    el('p', {class: 'legend-ends small quiet number'}, el('span', {}, '0 %'), el('span', {}, `${percent} %`))];
 }
 
 function rowsOf(app: App): Row[] {

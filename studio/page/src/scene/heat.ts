@@ -1,10 +1,8 @@
 // The heat map: a share from 0 to 1 of every building.
 import type {Values} from '../store';
 
-export type HeatKind = 'unknown' | 'doubtful' | 'wrong' | 'changed' | number;
-
-/** What the heat map shows; a number is a class: how much of all features have it. */
-export function heatOf(values: Readonly<Values>): Map<number, number> {
+/** The share of a building's features that are what the heat map shows; a number is a class. */
+export function sharesOf(values: Readonly<Values>): Map<number, number> {
   const kind = values.heat;
   const counts = new Map<number, number>();
   const note = (building: number) => counts.set(building, (counts.get(building) ?? 0) + 1);
@@ -18,11 +16,19 @@ export function heatOf(values: Readonly<Values>): Map<number, number> {
     else if (typeof kind === 'number') shares.set(building, labels.filter(label => label === kind).length / all);
     else shares.set(building, (counts.get(building) ?? 0) / all);
   }
-  return stretched(shares);
+  return shares;
 }
 
-/** Shares against the largest, so that differences are seen also where all are small. */
-function stretched(shares: Map<number, number>): Map<number, number> {
-  const most = Math.max(...shares.values(), 1e-9);
-  return new Map([...shares].map(([building, share]) => [building, share / most]));
+/** The share that has the last colour: the smallest of a few round ones over which none is, so that differences are seen also where
+    all are small. */
+export function topOf(shares: ReadonlyMap<number, number>): number {
+  const most = [...shares.values()].reduce((max, share) => Math.max(max, share), 0);
+  return [0.02, 0.05, 0.1, 0.25, 0.5].find(top => most <= top) ?? 1;
+}
+
+/** The place of every building between the first and the last colour. */
+export function heatOf(values: Readonly<Values>): Map<number, number> {
+  const shares = sharesOf(values);
+  const top = topOf(shares);
+  return new Map([...shares].map(([building, share]) => [building, share / top]));
 }

@@ -118,7 +118,7 @@ async function lists({page, check}) {
   check(/house/.test(await page.textContent('.list-row')) && /29 unknown/.test(await page.textContent('.list-row')), 'the list has the building with its counts');
   const calls = Number(await page.getAttribute('#scene', 'data-draw-calls'));
   check(calls > 0 && calls <= 200, `${calls} draw calls`);
-  check(await page.evaluate(() => [...document.querySelectorAll('button, input, select')].every(element => element.getAttribute('aria-label') ||
+  check(await page.evaluate(() => [...document.querySelectorAll('button, input, select')].every(element => element.hidden || element.getAttribute('aria-label') ||
     element.textContent.trim() || element.labels?.length || element.title || element.closest('.cm-editor'))), 'everything that is pressed has a name');
 }
 
