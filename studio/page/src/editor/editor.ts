@@ -55,6 +55,22 @@ function definitionByClick(app: App) {
   });
 }
 
+/** Saving and undo work wherever the reader is, but not over the undo of a field that is being written in. */
+function bindPage(app: App, author: Author, saving: Saving): void {
+  addEventListener('keydown', event => {
+    const target = event.target as HTMLElement;
+    if (event.defaultPrevented || !(event.ctrlKey || event.metaKey) || event.altKey || document.querySelector('dialog[open]')) return;
+    const isWriting = target.isContentEditable || target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target.type !== 'range');
+    const key = event.key.toLowerCase();
+    const run = key === 's' ? () => attempt(app, () => saving.save())
+      : isWriting ? undefined
+        : key === 'z' && !event.shiftKey ? () => undo(author.view) : key === 'y' || key === 'z' ? () => redo(author.view) : undefined;
+    if (!run) return;
+    event.preventDefault();
+    run();
+  });
+}
+
 function tool(label: string, hint: string, run: () => void, members: Record<string, string> = {}): HTMLButtonElement {
   return el('button', {type: 'button', class: 'button tool', title: hint, onclick: run, ...members}, label);
 }
@@ -114,6 +130,7 @@ export function editorPanel(app: App): Panel {
       packEditing(app.source)
     ]);
     saving.watchDisk();
+    bindPage(app, author, saving);
   });
   author.loop.onAnswer(() => underline(author.view, app.store.value.findings));
   return {id: 'editor', title: words.editor.title, element, onShow: () => author.view.requestMeasure()};
