@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of docs/studio.md anew, by the steps of the browser tests. Needs Chromium, Node and playwright-core
-# (tests/studio/browser/run.sh --install). Usage: docs/studio.sh [ORIEL]
+# (tests/studio/browser/run.sh --install gets them). Usage: docs/studio.sh [ORIEL]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 oriel=$(realpath "${1:-build/release/cli/oriel}")
-mkdir -p docs/studio
-PICTURES=$(realpath docs/studio) tests/studio/browser/run.sh "$oriel" author
+tests/studio/browser/run.sh --pictures docs/studio "$oriel" build/release/tests/studio_browser author

@@ -16,8 +16,7 @@ namespace oriel::studio {
 
 namespace {
 
-/// A picture needs no more than millimetres.
-constexpr double kMillimetres = 1000;
+constexpr double kMillimetresOfVerbs = 1000;
 
 /// What the slider of scales stops at: denominators.
 constexpr int kScales[] = {1, 500, 1000, 2500, 5000, 10000, 25000};

@@ -27,8 +27,9 @@ function mappingOf(pair: SyntaxNode | null): SyntaxNode | null {
 function sectionOf(text: string): Section | null {
   const begin = text.search(/^params\s*:/m);
   if (begin < 0) return null;
-  const next = text.slice(begin + 1).search(/^[^\s#]/m);
-  const own = next < 0 ? text.slice(begin) : text.slice(begin, begin + 1 + next);
+  const behind = endOfLine(text, begin);
+  const next = text.slice(behind).search(/^[^\s#]/m);
+  const own = next < 0 ? text.slice(begin) : text.slice(begin, behind + next);
   const top = yamlLanguage.parser.parse(own).topNode.getChild('Document')?.getChild('BlockMapping') ?? null;
   return {text: own, begin, params: mappingOf(pairIn(top, 'params', own))};
 }

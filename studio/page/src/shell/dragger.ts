@@ -6,7 +6,8 @@ const kStepPx = 24;
 const kLeast = {left: 260, right: 260, sheet: 90};
 
 export function dragger(label: string, side: 'left' | 'right'): HTMLElement {
-  const handle = el('div', {class: `dragger dragger-${side}`, role: 'separator', tabindex: '0', 'aria-label': label, 'aria-orientation': 'vertical'});
+  const handle = el('div', {class: `dragger dragger-${side}`, role: 'separator', tabindex: '0', 'aria-label': label, 'aria-orientation': 'vertical',
+    'aria-valuenow': '30'});
   const isSheet = () => handle.parentElement?.dataset['mode'] === 'phone';
   const neighbour = () => (side === 'left' ? handle.previousElementSibling : handle.nextElementSibling) as HTMLElement;
   const size = () => (isSheet() ? neighbour().offsetHeight : neighbour().offsetWidth);
@@ -14,6 +15,7 @@ export function dragger(label: string, side: 'left' | 'right'): HTMLElement {
     const frame = handle.parentElement!;
     const name = isSheet() ? 'sheet' : side;
     const most = (isSheet() ? frame.offsetHeight : frame.offsetWidth) * 0.7;
+    handle.setAttribute('aria-valuenow', String(Math.round(100 * Math.max(kLeast[name], Math.min(most, to)) / (isSheet() ? frame.offsetHeight : frame.offsetWidth))));
     frame.style.setProperty(`--${name}`, `${Math.round(Math.max(kLeast[name], Math.min(most, to)))}px`);
     if (isSheet()) frame.dataset['sheet'] = 'open';
   };

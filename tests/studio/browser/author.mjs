@@ -1,7 +1,13 @@
-// The steps of an author's day, each with a page of the studio in which it is taken; author_day.mjs puts them in order.
+// What an author does in a page of the studio; steps/10_author_day.mjs puts it in order.
 import assert from 'node:assert/strict';
 
 const kWait_ms = 8000;
+
+/** Opens the page and waits until the pack is in its editor. */
+export async function open(page, studio) {
+  await page.goto(studio.address);
+  await page.waitForSelector('html[data-ready]');
+}
 
 /** Waits until `test` holds, looking again and again: the page's Content-Security-Policy lets no test be sent into it. */
 async function until(what, test) {
