@@ -4,4 +4,4 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 oriel=$(realpath "${1:-build/release/cli/oriel}")
-tests/studio/browser/run.sh --pictures docs/studio "$oriel" build/release/tests/studio_browser author
+tests/studio/browser/run.sh --pictures docs/studio "$oriel" build/release/tests/studio_browser author building city 22_phone

@@ -1,5 +1,5 @@
 import {readFileSync} from 'node:fs';
-import {ready} from './10_building.mjs';
+import {ready} from './20_building.mjs';
 
 const kName = `<img src=x onerror="document.title='taken'">`;
 const house = readFileSync(new URL('../../../../examples/samples/house.stripped.city.json', import.meta.url), 'utf8');

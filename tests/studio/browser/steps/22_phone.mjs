@@ -1,4 +1,4 @@
-import {ready} from './10_building.mjs';
+import {ready} from './20_building.mjs';
 
 export const title = 'on a phone the building has most of the screen';
 export const context = {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, reducedMotion: 'reduce', deviceScaleFactor: 2};

@@ -1,5 +1,5 @@
 import {readFileSync} from 'node:fs';
-import {ready} from './10_building.mjs';
+import {ready} from './20_building.mjs';
 
 const kCount = 120;
 
