@@ -29,7 +29,7 @@ StudioJson box_mm_json(const Box& box, const Vec3& origin_m) {
   StudioJson list = StudioJson::array();
   for (const Vec3& corner : {box.min - origin_m, box.max - origin_m})
     for (const double metres : {corner.x, corner.y, corner.z})
-      list.push_back(std::llround(kMillimetres * metres));
+      list.push_back(std::llround(kMillimetresOfVerbs * metres));
   return list;
 }
 
@@ -84,7 +84,8 @@ StudioJson vertices_json(const Building& building, const Vec3& origin_m) {
   StudioJson list = StudioJson::array();
   for (const Vec3& vertex : building.vertices) {
     const Vec3 p = vertex + (building.frame.origin_m - origin_m);
-    for (const double metres : {p.x, p.y, p.z}) list.push_back(std::llround(kMillimetres * metres));
+    for (const double metres : {p.x, p.y, p.z})
+      list.push_back(std::llround(kMillimetresOfVerbs * metres));
   }
   return list;
 }
@@ -110,8 +111,8 @@ StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* label
 StudioJson storeys_json(const OpenBuilding& open, const Vec3& origin_m) {
   StudioJson list = StudioJson::array();
   for (const double floor_m : storey_floors(*open.building, open.segmented))
-    list.push_back(
-        std::llround(kMillimetres * (floor_m + open.building->frame.origin_m.z - origin_m.z)));
+    list.push_back(std::llround(kMillimetresOfVerbs *
+                                (floor_m + open.building->frame.origin_m.z - origin_m.z)));
   return list;
 }
 

@@ -55,15 +55,24 @@ export class Workbench implements App {
     }
     this.openAddress();
     document.documentElement.dataset['ready'] = 'yes';
+    await this.followLoading();
+  }
+
+  /** Buildings that come in while the page is open are drawn and labelled. */
+  private async followLoading(): Promise<void> {
+    let done = this.store.value.loading.done;
     while (this.store.value.loading.done < this.store.value.loading.all) {
       await new Promise(resolve => setTimeout(resolve, kPollMs));
       try {
         await this.readState(false);
+        if (this.store.value.loading.done === done) continue;
+        done = this.store.value.loading.done;
         await this.packs.run(this.store.value.text, undefined, true);
       } catch (error) {
         this.tell(error);
       }
     }
+    if (!this.store.value.selection && this.store.value.found.length === 0 && !this.scene.camera.isMoved) this.scene.fly(null);
   }
 
   select(selection: Selection | null, fly = false): void {

@@ -16,6 +16,8 @@ export class Camera {
   private readonly controls: OrbitControls;
   private readonly tied: Camera[] = [];
   private flight = 0;
+  /** The reader has turned, moved or zoomed it. */
+  isMoved = false;
 
   constructor(element: HTMLElement, private readonly onChange: () => void) {
     this.three.up.set(0, 0, 1);
@@ -25,7 +27,7 @@ export class Camera {
     this.controls.minDistance = 0.3;
     this.controls.mouseButtons = {LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN};
     this.controls.addEventListener('change', () => this.moved());
-    this.controls.addEventListener('start', () => { this.flight = 0; });
+    this.controls.addEventListener('start', () => { this.flight = 0; this.isMoved = true; });
     element.addEventListener('keydown', event => this.onKey(event));
   }
 

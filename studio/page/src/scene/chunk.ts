@@ -21,10 +21,12 @@ export interface Chunk {
 /** From far away only what is seen is drawn: triangles and lines of less than these, in pixels, are left out. */
 const kLeastAreaPx = 0.8;
 const kLeastLengthPx = 2.5;
+/** Triangles of this area are walls and roofs: they are always drawn, or a city would fade away. */
+const kAlways_m2 = 5;
 
 /** Draws of a chunk what is seen where a pixel is `pixel_m` wide. */
 export function leaveOutSmall(chunk: Chunk, pixel_m: number): void {
-  const triangles = countOver(chunk.areas, kLeastAreaPx * pixel_m * pixel_m);
+  const triangles = countOver(chunk.areas, Math.min(kAlways_m2, kLeastAreaPx * pixel_m * pixel_m));
   const lines = countOver(chunk.lengths, kLeastLengthPx * pixel_m);
   chunk.mesh.geometry.setDrawRange(0, 3 * triangles);
   chunk.lines.geometry.setDrawRange(0, 2 * lines);
