@@ -121,6 +121,8 @@ export interface AskAnswer { parts: {building: number; feature: number; sentence
 export interface LearnQuestion { objective?: string; params?: string[]; propose?: boolean; stop?: boolean }
 export interface LearnAnswer {
   state: 'idle' | 'running' | 'done' | 'failed'; done: number; all: number; text: string; summary: string; issues: Issue[];
+  /** The whole report, as `oriel learn` prints it, and changes of rules that would pay; nothing of them is in `text`. */
+  report?: string; proposals?: {what: string; rule: string; gain: number; held_out_gain: number}[];
 }
 
 // ---- scale, save, disk, truth ----

@@ -196,6 +196,8 @@ export const words = {
     objective: 'For', macroF1: 'F1 of all classes', f1Of: (name: string) => `F1 of ${name}`, proposeRules: 'list changes of rules, too',
     start: 'Learn', stop: 'Stop', progress: 'How far the search is', running: 'Searching …', stopped: 'Stopped.', failed: 'Nothing could be learnt.',
     done: 'This is the proposal. Leave out what you do not believe.', nothing: 'The pack is as good as it gets within the ranges of its params.',
+    report: 'Report', rules: 'Changes of rules that would pay',
+    gain: (all: number, heldOut: number) => `F1 +${all.toFixed(3)}, +${heldOut.toFixed(3)} on buildings held out`,
     proposal: 'The proposed pack', leaveOut: 'Leave out', accept: 'Accept', reject: 'Reject', accepted: 'Accepted. Undo takes it back.', rejected: 'Rejected.',
     outdated: 'The pack has changed since the search began. Learn again.'
   },

@@ -7,6 +7,12 @@ const kPause_ms = 350;
 
 interface Kept { curve: CurveAnswer; stamp: number }
 
+/** Without the values for which there is no F1. */
+function measured(curve: CurveAnswer): CurveAnswer {
+  const places = curve.f1.map((_, at) => at).filter(at => typeof curve.f1[at] === 'number');
+  return {values: places.map(at => curve.values[at]!), f1: places.map(at => curve.f1[at]!), at: curve.at};
+}
+
 export class CurveQueue {
   private readonly kept = new Map<string, Kept>();
   private readonly stamps = new Map<string, number>();
@@ -62,7 +68,7 @@ export class CurveQueue {
     const ofClass = this.ofClass;
     try {
       const curve = await this.app.source.curve(param, ofClass);
-      if (ofClass === this.ofClass) this.kept.set(param, {curve, stamp});
+      if (ofClass === this.ofClass) this.kept.set(param, {curve: measured(curve), stamp});
     } catch {
       this.wanted.delete(param);  // A param without curve has none: its slider works all the same.
     }

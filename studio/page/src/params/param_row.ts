@@ -106,7 +106,8 @@ export class ParamRow {
     this.show(entry.value, entry.text);
   }
 
-  setCurve(curve: CurveAnswer | null, isFresh: boolean): void {
+  setCurve(given: CurveAnswer | null, isFresh: boolean): void {
+    const curve = given && given.values.length > 1 ? given : null;
     this.curve = curve;
     this.element.classList.toggle('is-stale', !isFresh);
     this.element.classList.toggle('has-curve', curve !== null && this.hasRange);

@@ -31,7 +31,7 @@ export class LearnBox {
 
   private fillObjectives(): void {
     const classes = this.app.store.value.score?.classes.map(entry => entry.name) ?? [];
-    const wanted = ['macro_f1', ...classes.map(name => `f1:${name}`)];
+    const wanted = ['macro_f1', ...classes];
     if (wanted.join('\n') === [...this.objective.options].map(option => option.value).join('\n')) return;
     const chosen = this.objective.value;
     replace(this.objective, ...wanted.map((value, at) => el('option', {value}, at === 0 ? words.learn.macroF1 : words.learn.f1Of(classes[at - 1]!))));
@@ -82,9 +82,19 @@ export class LearnBox {
     const isProposal = answer.state === 'done' && answer.text !== '' && answer.text !== this.asked;
     this.told.textContent = answer.state === 'failed' ? words.learn.failed : answer.state === 'idle' ? words.learn.stopped : isProposal ? words.learn.done : words.learn.nothing;
     replace(this.result,
-      answer.summary !== '' ? el('pre', {class: 'learn-summary'}, answer.summary) : null,
+      answer.summary !== '' ? el('p', {class: 'small'}, answer.summary) : null,
+      answer.report ? el('details', {class: 'small'}, el('summary', {}, words.learn.report), el('pre', {class: 'learn-summary'}, answer.report)) : null,
+      this.proposalsOf(answer),
       sentences.length > 0 ? el('ul', {class: 'plain small'}, ...sentences) : null);
     if (isProposal) this.showProposal(answer.text);
+  }
+
+  /** Changes of rules that would pay: only a person can tell whether they make sense, so that none is made by itself. */
+  private proposalsOf(answer: LearnAnswer): HTMLElement | null {
+    const list = answer.proposals ?? [];
+    if (list.length === 0) return null;
+    return el('section', {}, el('h3', {}, words.learn.rules), el('ul', {class: 'plain small rule-proposals'}, ...list.map(proposal => el('li', {},
+      el('code', {}, proposal.rule), ' ', proposal.what, ' ', el('span', {class: 'quiet number'}, words.learn.gain(proposal.gain, proposal.held_out_gain))))));
   }
 
   private showProposal(text: string): void {
