@@ -48,7 +48,7 @@ class ExpressionCompleter {
     if (is_after_word("is")) return add_after_is();
     if (is_at_relation()) return add_relations();
     if (is_after(Token::Kind::dot)) return add_after_dot();
-    if (is_at_fixed_argument()) return;
+    if (add_fixed_argument()) return;
     if (is_after(Token::Kind::number)) return add_after_number();
     if (is_after_operand()) return add_operators();
     if (const std::string attribute = compared_attribute(tokens_); !attribute.empty())
@@ -78,12 +78,16 @@ class ExpressionCompleter {
     return is_after_word("of") ||
            (is_after(Token::Kind::open_round) && is_after_one_of(quantifier_names(), 1));
   }
-  /// The one that `distance_along(` and `gap(` have is added whole with the function.
-  [[nodiscard]] bool is_at_fixed_argument() {
+  /// `distance_along(` and `gap(` take one fixed word; false where neither is open.
+  bool add_fixed_argument() {
     if (!is_after(Token::Kind::open_round)) return false;
-    if (is_after_word("distance_along", 1)) add("other", "word", text_of_language("other"));
-    if (is_after_word("gap", 1)) add("members", "word", WordText{});
-    return is_after_word("distance_along", 1) || is_after_word("gap", 1);
+    const bool is_distance = is_after_word("distance_along", 1);
+    if (!is_distance && !is_after_word("gap", 1)) return false;
+    if (is_distance)
+      add("other", "word", text_of_language("other"));
+    else
+      add("members", "word", {"", "", "of the group"});
+    return true;
   }
 
   /// The last token ends a value or a condition, so that an operator comes next.

@@ -56,6 +56,8 @@ TEST_SUITE("interpret/editing") {
     CHECK(completed_in_rule("a ~ b |") == std::vector<std::string>{"by"});
     CHECK(has(completed_in_rule("max(width of |"), "close"));
     CHECK(completed_in_rule("width > 3|").empty());
+    CHECK(completed_in_rule("exists(close where distance_along(|") ==
+          std::vector<std::string>{"other"});
   }
 
   TEST_CASE("completion works in texts that cannot be read") {
