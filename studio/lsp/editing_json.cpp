@@ -45,12 +45,20 @@ struct LanguageQuestion {
   std::size_t offset = 0;
 };
 
+/// The page has fewer kinds than editors: a predicate is a class there, an entry is called by its
+/// section.
+std::string kind_on_page(const std::string& kind, const std::string& section = "") {
+  if (kind == "predicate") return "class";
+  if (kind == "attribute of surfaces") return "attribute";
+  return kind == "entry" && !section.empty() ? section : kind;
+}
+
 JsonValue complete(const LanguageQuestion& question) {
   const TextPlaces& places = question.pack.places();
   JsonValue items = JsonValue::array();
   for (const Completion& item : question.pack.complete(question.offset))
     items.push_back({{"label", item.label},
-                     {"kind", item.kind},
+                     {"kind", kind_on_page(item.kind)},
                      {"detail", item.detail},
                      {"documentation", item.documentation},
                      {"insert", item.insert},
@@ -66,15 +74,14 @@ JsonValue hover(const LanguageQuestion& question) {
   return json;
 }
 
+/// The page has no other text than the pack: what is stated elsewhere has no place there.
 JsonValue definition(const LanguageQuestion& question) {
   const auto place = question.pack.definition(question.offset);
-  if (!place) return nullptr;
-  JsonValue json{{"line", place->begin.line},
-                 {"column", place->begin.column},
-                 {"end_line", place->end.line},
-                 {"end_column", place->end.column}};
-  json["file"] = place->is_here ? JsonValue(nullptr) : JsonValue(place->file);
-  return json;
+  if (!place || !place->is_here) return nullptr;
+  return {{"line", place->begin.line},
+          {"column", place->begin.column},
+          {"end_line", place->end.line},
+          {"end_column", place->end.column}};
 }
 
 /// Only the edits of the pack itself: the page has no other text open.
@@ -99,18 +106,27 @@ JsonValue outline(const LanguageQuestion& question) {
   const TextPlaces& places = question.pack.places();
   JsonValue items = JsonValue::array();
   for (const OutlineItem& item : question.pack.outline())
-    items.push_back({{"kind", item.kind},
+    items.push_back({{"kind", kind_on_page(item.kind, item.section)},
                      {"name", item.name},
                      {"section", item.section},
-                     {"parent", item.parent},
+                     {"parent", item.parent.empty() ? JsonValue(nullptr) : JsonValue(item.parent)},
                      {"detail", item.detail},
                      {"line", places.place(item.where.begin).line},
                      {"end_line", places.place(item.where.end).line}});
   return {{"items", std::move(items)}};
 }
 
+/// Those of the findings at the place.
 JsonValue fixes(const LanguageQuestion& question) {
-  return {{"findings", findings_json(question.pack)}};
+  JsonValue all = JsonValue::array();
+  for (const TextFinding& finding : question.pack.findings()) {
+    const bool is_there =
+        finding.where.begin <= question.offset && question.offset <= finding.where.end;
+    if (!is_there) continue;
+    for (JsonValue& fix : fixes_json(question.pack.places(), finding.fixes))
+      all.push_back(std::move(fix));
+  }
+  return {{"fixes", std::move(all)}};
 }
 
 struct LanguageVerb {

@@ -39,6 +39,11 @@ TEST_SUITE("studio/lsp") {
     CHECK(ask({{"verb", "format"}, {"text", "a: ["}}).contains("findings"));
     const auto outline = ask({{"verb", "outline"}})["items"];
     CHECK(outline.back()["name"] == "emit");
+    CHECK(ask({{"verb", "definition"},
+               {"line", 1},
+               {"column", 12},
+               {"text", "extends: residential\n"}})
+              .is_null());
     const auto edits =
         ask({{"verb", "rename"}, {"line", 10}, {"column", 21}, {"name", "parapet"}})["edits"];
     CHECK(edits.size() == 2);
@@ -48,7 +53,7 @@ TEST_SUITE("studio/lsp") {
   TEST_CASE("findings stand where the editor counts with their fixes") {
     std::string text = kPack;
     text.replace(text.find("why: "), 5, "wy: ");
-    const auto findings = ask({{"verb", "fixes"}, {"text", text}})["findings"];
+    const auto findings = studio::findings_json(EditedPack(text, "town.yaml"));
     REQUIRE(findings.size() == 1);
     CHECK(findings[0]["code"] == "R209");
     CHECK(findings[0]["advice"] == "did you mean 'why'?");
@@ -56,6 +61,11 @@ TEST_SUITE("studio/lsp") {
     CHECK(findings[0]["column"] == 24);
     CHECK(findings[0]["end_column"] == 26);
     CHECK(findings[0]["fixes"][0]["edits"][0]["text"] == "why");
+    const auto asked = [&](int column) {
+      return ask({{"verb", "fixes"}, {"text", text}, {"line", 4}, {"column", column}})["fixes"];
+    };
+    CHECK(asked(25) == findings[0]["fixes"]);
+    CHECK(asked(3).empty());
   }
 
   TEST_CASE("what cannot be answered is refused with a sentence") {
