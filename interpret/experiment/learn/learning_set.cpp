@@ -21,7 +21,7 @@ constexpr std::size_t kSamplesInShare = 4;
 
 /// Of all samples together so many labellings are kept, of some 100 kB, and so many curves and
 /// outcomes, of some 500 bytes; and so many packs.
-constexpr std::size_t kMostLabelled = 1000;
+constexpr std::size_t kMostLabelled = 240;
 constexpr std::size_t kMostKnown = 200'000;
 constexpr std::size_t kLeastKnown = 64;
 constexpr std::size_t kMostSettings = 256;
