@@ -91,6 +91,35 @@ TEST_SUITE("interpret/experiment/learn") {
     }));
   }
 
+  TEST_CASE("a set that was asked before says what a fresh one says") {
+    const RuleBase rules = sills();
+    CHECK(rc::check([&] {
+      const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
+      const std::vector<Sample> samples{random_sample(seed, 12), random_sample(seed + 1, 9)};
+      const ForEachShare for_each = for_each_in_turn;
+      const LearningSet asked(rules.pack(), samples, Objective::macro_f1(), for_each);
+      const SamplePart all = all_samples(samples.size());
+      const auto& params = asked.params();
+      for (int round = 0; round < 6; ++round) {
+        Setting at = asked.setting();
+        at[params[0]] = 0.5 * *rc::gen::inRange(1, 4);
+        at[params[1]] = 1.0 + *rc::gen::inRange(0, 3);
+        const std::size_t param = params[static_cast<std::size_t>(*rc::gen::inRange(0, 2))];
+        const LearningSet fresh(rules.pack(), samples, Objective::macro_f1(), for_each);
+        RC_ASSERT(asked.outcomes(at, all) == fresh.outcomes(at, all));
+        const auto of_asked = asked.curves(at, param, all), of_fresh = fresh.curves(at, param, all);
+        for (const std::size_t sample : all) {
+          RC_ASSERT(of_asked[sample].at_value == of_fresh[sample].at_value);
+          RC_ASSERT(of_asked[sample].pieces.size() == of_fresh[sample].pieces.size());
+          for (std::size_t i = 0; i < of_asked[sample].pieces.size(); ++i) {
+            RC_ASSERT(of_asked[sample].pieces[i].from == of_fresh[sample].pieces[i].from);
+            RC_ASSERT(of_asked[sample].pieces[i].outcome == of_fresh[sample].pieces[i].outcome);
+          }
+        }
+      }
+    }));
+  }
+
   TEST_CASE("a param that was moved comes back and nothing else is changed") {
     const RuleBase rules = sills();
     const auto samples = samples_labelled_by(rules, 12);
