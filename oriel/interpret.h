@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/labelling/interpret.h"  // IWYU pragma: export
+#include "interpret/labelling/selection.h"  // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "interpret/score/label_diff.h"
 #include "kernel/base/issue.h"

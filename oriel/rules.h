@@ -1,6 +1,6 @@
 #pragma once
 
-/// Rule packs and profiles: load_pack_file, load_pack_text, format_pack_file, merge_pack_file,
+/// Rule packs and profiles: load_pack_file, format_pack_file, merge_pack_file,
 /// pack_schema, describe_pack_file, load_profile_file and check_profile, and their tests
 /// (docs/rules.md); packs with params at other values: with_params; what packs can say:
 /// attribute_words, relation_words, operator_words; what the documentation says of a code: page_of.

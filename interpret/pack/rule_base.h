@@ -63,11 +63,6 @@ Checked<RuleBase> load_pack(std::string text, std::string file);
 /// It may extend files in its own folder. Nothing else is read.
 Checked<RuleBase> load_pack_file(const std::string& path);
 
-/// The pack in `text` as if it stood in the file at `path`, which need not exist: it may extend
-/// packs that are built in and files in the folder of `path`. For editors, whose text is not saved
-/// yet.
-Checked<RuleBase> load_pack_text(std::string text, const std::string& path);
-
 /// The pack that load_pack_file would load, in canonical form with its comments: read again it says
 /// the same, and in the same form. Findings are those of loading it; with an error among them there
 /// is no text.

@@ -48,5 +48,9 @@ StudioJson answer_state(Desk& desk, const RequestBody& body);
 StudioJson answer_geometry(Desk& desk, const RequestBody& body);
 StudioJson answer_surfaces(Desk& desk, const RequestBody& body);
 StudioJson answer_explain(Desk& desk, const RequestBody& body);
+StudioJson answer_search(Desk& desk, const RequestBody& body);
+StudioJson answer_truth(Desk& desk, const RequestBody& body);
+StudioJson answer_correct(Desk& desk, const RequestBody& body);
+StudioJson answer_corrections(Desk& desk, const RequestBody& body);
 
 }  // namespace oriel::studio

@@ -2,6 +2,7 @@
 #include "oriel/explain.h"
 #include "oriel/generalise.h"
 #include "studio/session/desk.h"
+#include "studio/session/geometry_json.h"
 #include "studio/session/pack_answer.h"
 #include "studio/session/plain_sentence.h"
 #include "studio/session/storeys.h"
@@ -20,18 +21,6 @@ constexpr double kMillimetresOfVerbs = 1000;
 
 /// What the slider of scales stops at: denominators.
 constexpr int kScales[] = {1, 500, 1000, 2500, 5000, 10000, 25000};
-
-StudioJson point_json(const Vec3& p) {
-  return StudioJson::array({rounded(p.x, 3), rounded(p.y, 3), rounded(p.z, 3)});
-}
-
-StudioJson box_mm_json(const Box& box, const Vec3& origin_m) {
-  StudioJson list = StudioJson::array();
-  for (const Vec3& corner : {box.min - origin_m, box.max - origin_m})
-    for (const double metres : {corner.x, corner.y, corner.z})
-      list.push_back(std::llround(kMillimetresOfVerbs * metres));
-  return list;
-}
 
 Box box_of(const Building& building) {
   Box box;
@@ -77,16 +66,6 @@ StudioJson polygons_json(const OpenBuilding& open) {
     list.push_back({{"source", polygon.source},
                     {"rings", polygon.rings},
                     {"owners", open.owners[static_cast<std::size_t>(polygon.source)]}});
-  return list;
-}
-
-StudioJson vertices_json(const Building& building, const Vec3& origin_m) {
-  StudioJson list = StudioJson::array();
-  for (const Vec3& vertex : building.vertices) {
-    const Vec3 p = vertex + (building.frame.origin_m - origin_m);
-    for (const double metres : {p.x, p.y, p.z})
-      list.push_back(std::llround(kMillimetresOfVerbs * metres));
-  }
   return list;
 }
 
@@ -154,7 +133,7 @@ StudioJson answer_geometry(Desk& desk, const RequestBody& body) {
                                            : nullptr;
     buildings.push_back({{"number", number},
                          {"id", open.building->id},
-                         {"vertices_mm", vertices_json(*open.building, origin_m)},
+                         {"vertices_mm", vertices_mm_json(open.building->vertices, open.building->frame, origin_m)},
                          {"polygons", polygons_json(open)},
                          {"features", features_json(open, features, origin_m)},
                          {"storeys_mm", storeys_json(open, origin_m)}});

@@ -16,13 +16,17 @@ using Verb = StudioJson (*)(Desk&, const RequestBody&);
 
 const std::map<std::string_view, Verb>& verbs() {
   static const std::map<std::string_view, Verb> all{
+      {"correct", answer_correct},
+      {"corrections", answer_corrections},
       {"disk", [](Desk& desk, const RequestBody&) { return desk.file.disk(); }},
       {"explain", answer_explain},
       {"geometry", answer_geometry},
       {"pack", [](Desk& desk, const RequestBody& body) { return desk.runner.run(body); }},
       {"save", [](Desk& desk, const RequestBody& body) { return desk.file.save(body); }},
+      {"search", answer_search},
       {"state", answer_state},
       {"surfaces", answer_surfaces},
+      {"truth", answer_truth},
   };
   return all;
 }
