@@ -3,8 +3,7 @@
 #include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/labelling/labelling.h"
-#include "interpret/pack/extend.h"
-#include "interpret/pack/pack.h"
+#include "interpret/pack/read_pack.h"
 #include "interpret/params/with_params.h"
 
 #include <algorithm>
@@ -72,17 +71,16 @@ Checked<Selection> read_selection(const std::string& text, const std::string& pa
   if (text.find_first_of("'\n\r") != std::string::npos)
     return {std::nullopt,
             {refused_condition("a condition stands on one line and has no quotes in it")}};
-  const rules::PackFinder beside = rules::finder_beside(pack_path);
+  const rules::PackFinder beside = rules::finder_for(pack_path);
   const rules::PackFinder find = [&](const std::string& name) {
     return name == kBase ? rules::FoundPack{pack_path, pack_text} : beside(name);
   };
   int column = 0;
-  Checked<Selection> result;
   std::string wrapped = pack_of_condition(text, column);
-  const auto pack = rules::load_over(std::move(wrapped), kFile, find, result.issues);
-  result.issues = issues_of_condition(std::move(result.issues), column);
-  if (!pack) return result;
-  auto changed = with_params(RuleBase(pack), assignments);
+  auto read = rules::read_pack_text(std::move(wrapped), kFile, find);
+  Checked<Selection> result{std::nullopt, issues_of_condition(std::move(read.issues), column)};
+  if (!read.is_good) return result;
+  auto changed = with_params(RuleBase(read.pack), assignments);
   result.issues.insert(result.issues.end(), changed.issues.begin(), changed.issues.end());
   if (changed.value) result.value.emplace(std::move(*changed.value));
   return result;

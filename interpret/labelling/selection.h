@@ -27,8 +27,8 @@ class Selection {
   RuleBase rules_;
 };
 
-/// The condition in `text`, with the pack in `pack_text` as if it stood in the file at `pack_path`
-/// (load_pack_text), and with params at other values (with_params). Issues are the errors of the
+/// The condition in `text`, with the pack in `pack_text` as if it stood in the file at `pack_path`,
+/// and with params at other values (with_params). Issues are the errors of the
 /// condition, with codes as in packs, at their column in `text`, line 1; those of a pack that
 /// cannot be loaded; there is no value then.
 Checked<Selection> read_selection(const std::string& text, const std::string& pack_text,

@@ -5,6 +5,7 @@
 #include "studio/session/pack_file.h"
 #include "studio/session/pack_runner.h"
 #include "studio/session/request_body.h"
+#include "studio/session/scale_cache.h"
 #include "studio/session/session.h"
 
 #include <memory>
@@ -27,6 +28,7 @@ struct Desk {
   CorrectionBook corrections;
   OpenBuildings buildings;
   PackRunner runner;
+  ScaleCache scales;
 };
 
 /// A building that a request names, with what the last good pack says of it.
@@ -49,6 +51,7 @@ StudioJson answer_geometry(Desk& desk, const RequestBody& body);
 StudioJson answer_surfaces(Desk& desk, const RequestBody& body);
 StudioJson answer_explain(Desk& desk, const RequestBody& body);
 StudioJson answer_search(Desk& desk, const RequestBody& body);
+StudioJson answer_scale(Desk& desk, const RequestBody& body);
 StudioJson answer_truth(Desk& desk, const RequestBody& body);
 StudioJson answer_correct(Desk& desk, const RequestBody& body);
 StudioJson answer_corrections(Desk& desk, const RequestBody& body);

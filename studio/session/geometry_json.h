@@ -1,9 +1,8 @@
 #pragma once
 
-#include "studio/session/request_body.h"
-
 #include "kernel/model/building.h"
 #include "oriel/result.h"
+#include "studio/session/request_body.h"
 
 namespace oriel::studio {
 

@@ -131,12 +131,13 @@ StudioJson answer_geometry(Desk& desk, const RequestBody& body) {
     const LabelledFeatures* features = labelled && number < labelled->buildings.size()
                                            ? labelled->buildings[number].get()
                                            : nullptr;
-    buildings.push_back({{"number", number},
-                         {"id", open.building->id},
-                         {"vertices_mm", vertices_mm_json(open.building->vertices, open.building->frame, origin_m)},
-                         {"polygons", polygons_json(open)},
-                         {"features", features_json(open, features, origin_m)},
-                         {"storeys_mm", storeys_json(open, origin_m)}});
+    buildings.push_back(
+        {{"number", number},
+         {"id", open.building->id},
+         {"vertices_mm", vertices_mm_json(open.building->vertices, open.building->frame, origin_m)},
+         {"polygons", polygons_json(open)},
+         {"features", features_json(open, features, origin_m)},
+         {"storeys_mm", storeys_json(open, origin_m)}});
   }
   return {{"buildings", std::move(buildings)}};
 }

@@ -1,7 +1,5 @@
 #include "studio/session/pack_answer.h"
 
-#include "studio/session/text_columns.h"
-
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -14,52 +12,6 @@ namespace {
 
 /// So many changes are listed; `changed_count` counts all.
 constexpr std::size_t kMostChanges = 2000;
-
-/// How many characters the caret below a finding's line is drawn out to.
-int width_of(const Issue& issue) {
-  const std::size_t caret = issue.excerpt.rfind('^');
-  return caret == std::string::npos ? 1 : static_cast<int>(issue.excerpt.size() - caret);
-}
-
-/// The line of `extends:`, else the first.
-int line_of_extends(std::string_view text) {
-  int line = 1;
-  for (std::size_t begin = 0; begin < text.size(); ++line) {
-    if (text.substr(begin).starts_with("extends:")) return line;
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string_view::npos) break;
-    begin = end + 1;
-  }
-  return 1;
-}
-
-/// The first line of what the documentation says of a code.
-std::string advice_of(Code code) {
-  std::string_view page = page_of(code);
-  while (page.starts_with('\n')) page.remove_prefix(1);
-  return std::string(page.substr(0, page.find("\n\n")));
-}
-
-StudioJson finding_json(const Issue& issue, const std::string& file, std::string_view text) {
-  const bool is_own = issue.place.file == file || issue.place.file.empty();
-  const bool has_place = is_own && issue.place.line > 0;
-  const int line = has_place ? issue.place.line : is_own ? 1 : line_of_extends(text);
-  const std::string_view of_line = line_of_text(text, line);
-  const int column = has_place ? std::max(1, issue.place.column) : 1;
-  const int end = has_place ? column + width_of(issue) : 1;
-  return {
-      {"code", to_string(issue.code)},
-      {"severity", to_string(issue.severity)},
-      {"sentence",
-       is_own ? issue.sentence
-              : fmt::format("{}:{}: {}", issue.place.file, issue.place.line, issue.sentence)},
-      {"advice", advice_of(issue.code)},
-      {"line", line},
-      {"column", utf16_column(of_line, column)},
-      {"end_line", line},
-      {"end_column", has_place ? utf16_column(of_line, end) : static_cast<int>(of_line.size()) + 1},
-      {"fixes", StudioJson::array()}};
-}
 
 /// Lines of packs that this one extends are none of its text.
 StudioJson own_line(const Place& place, const std::string& file) {
@@ -234,11 +186,17 @@ StudioJson issues_json(const std::vector<Issue>& issues) {
   return list;
 }
 
-StudioJson findings_json(const std::vector<Issue>& issues, const std::string& file,
-                         std::string_view text) {
-  StudioJson list = StudioJson::array();
-  for (const Issue& issue : issues) list.push_back(finding_json(issue, file, text));
-  return list;
+StudioJson finding_json(const Issue& issue) {
+  const int column = std::max(1, issue.place.column);
+  return {{"code", to_string(issue.code)},
+          {"severity", to_string(issue.severity)},
+          {"sentence", issue.sentence},
+          {"advice", ""},
+          {"line", 1},
+          {"column", column},
+          {"end_line", 1},
+          {"end_column", column + 1},
+          {"fixes", StudioJson::array()}};
 }
 
 std::string value_text(const RuleBase& rules, const std::string& param, double value) {

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace oriel::studio {
@@ -16,11 +15,9 @@ namespace oriel::studio {
 StudioJson issue_json(const Issue& issue);
 StudioJson issues_json(const std::vector<Issue>& issues);
 
-/// The findings of a pack, each with its place in `text`, the pack's own text: lines from 1,
-/// columns from 1 in UTF-16 units. Findings in packs that it extends stand at their `extends:`,
-/// with the place in the sentence.
-StudioJson findings_json(const std::vector<Issue>& issues, const std::string& file,
-                         std::string_view text);
+/// A finding of a text of one line, such as a condition; of a param, whose text stands in no file,
+/// at its first line.
+StudioJson finding_json(const Issue& issue);
 
 /// "0.8 m" for a value of a param, as a pack states it.
 std::string value_text(const RuleBase& rules, const std::string& param, double value);

@@ -16,7 +16,7 @@ class PackFile {
   /// are those that a copy may be saved to, with all below them.
   PackFile(const std::string& rules, std::vector<std::string> folders);
 
-  /// As findings name it: what the pack is loaded as (load_pack_text).
+  /// As findings name it: what the pack is loaded as (EditedPack).
   [[nodiscard]] std::string name() const;
   /// The text as it was opened or saved last.
   [[nodiscard]] std::string text() const;

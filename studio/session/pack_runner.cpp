@@ -1,5 +1,6 @@
 #include "studio/session/pack_runner.h"
 
+#include "studio/lsp/editing_json.h"
 #include "studio/session/pack_answer.h"
 
 #include <algorithm>
@@ -33,18 +34,7 @@ std::shared_ptr<const LabelledBuildings> PackRunner::last() const {
   return last_;
 }
 
-/// Packs that this one extends may change on disk, so that only what was said without them is kept.
-Checked<RuleBase> PackRunner::load(const std::string& text) {
-  const std::string name = file_.name();
-  const bool is_same = loaded_ && loaded_text_ == text && loaded_name_ == name;
-  const bool stands_alone = is_same && loaded_->value && loaded_->value->files().size() == 1;
-  if (!stands_alone) {
-    loaded_ = load_pack_text(text, name);
-    loaded_text_ = text;
-    loaded_name_ = name;
-  }
-  return *loaded_;
-}
+EditedPack PackRunner::edited(const std::string& text) const { return {text, file_.name()}; }
 
 std::shared_ptr<const LabelledBuildings> PackRunner::label(
     const RuleBase& rules, const std::string& text, const std::vector<std::string>& assignments,
@@ -76,21 +66,23 @@ StudioJson PackRunner::run(const RequestBody& body) {
   if (newest_ > ticket) refuse_superseded();
   const auto start = std::chrono::steady_clock::now();
   has_begun_ = true;
-  Checked<RuleBase> loaded = load(text);
-  std::vector<Issue> issues = loaded.issues;
-  if (loaded.value && !assignments.empty()) {
-    auto changed = with_params(*loaded.value, assignments);
-    issues.insert(issues.end(), changed.issues.begin(), changed.issues.end());
-    loaded.value = std::move(changed.value);
+  const EditedPack pack = edited(text);
+  StudioJson findings = findings_json(pack);
+  std::optional<RuleBase> rules = pack.rules();
+  if (rules && !assignments.empty()) {
+    auto changed = with_params(*rules, assignments);
+    for (const Issue& issue : changed.issues) findings.push_back(finding_json(issue));
+    rules = std::move(changed.value);
   }
-  StudioJson answer{{"version", version}, {"is_good", loaded.value.has_value()}};
-  answer["findings"] = findings_json(issues, file_.name(), text);
-  if (loaded.value) {
+  StudioJson answer{{"version", version}, {"is_good", rules.has_value()}};
+  answer["findings"] = std::move(findings);
+  if (rules) {
     const auto before = last();
-    const auto labelled = label(*loaded.value, text, assignments, ticket);
+    const auto labelled = label(*rules, text, assignments, ticket);
     if (!labelled) refuse_superseded();
-    const std::uint64_t of_page = wants_all ? 0 : since ? *since : before ? before->number : 0;
-    answer["number"] = labelled->number;
+    const std::uint64_t of_page = wants_all ? 0 : since.value_or(answered_);
+    answered_ = labelled->number;
+    answer["number"] = answered_;
     add_labels(*labelled, {of_page, before.get()}, answer);
   }
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
@@ -110,8 +102,8 @@ std::shared_ptr<const LabelledBuildings> PackRunner::current() {
   if (labelled) return label(labelled->rules, labelled->text, labelled->assignments, kNeverGivenUp);
   if (has_begun_) return nullptr;
   const std::string text = file_.text();
-  const auto loaded = load(text);
-  return loaded.value ? label(*loaded.value, text, {}, kNeverGivenUp) : nullptr;
+  const auto rules = edited(text).rules();
+  return rules ? label(*rules, text, {}, kNeverGivenUp) : nullptr;
 }
 
 std::shared_ptr<const LabelledBuildings> PackRunner::need_current() {

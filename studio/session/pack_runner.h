@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oriel/editing.h"
 #include "studio/session/correction_book.h"
 #include "studio/session/labelled_buildings.h"
 #include "studio/session/pack_file.h"
@@ -37,7 +38,7 @@ class PackRunner {
   std::shared_ptr<const LabelledBuildings> label(const RuleBase& rules, const std::string& text,
                                                  const std::vector<std::string>& assignments,
                                                  std::uint64_t ticket);
-  Checked<RuleBase> load(const std::string& text);
+  [[nodiscard]] EditedPack edited(const std::string& text) const;
 
   const SessionOptions& options_;
   const OpenBuildings& buildings_;
@@ -47,10 +48,9 @@ class PackRunner {
   std::atomic<std::uint64_t> newest_ = 0;
   /// Held while a pack is run.
   std::mutex running_;
-  /// Of the run at hand: the text that was loaded last, under which name, and what came of it.
-  std::string loaded_text_, loaded_name_;
-  std::optional<Checked<RuleBase>> loaded_;
   bool has_begun_ = false;
+  /// LabelledBuildings::number of the last answer.
+  std::uint64_t answered_ = 0;
   mutable std::mutex mutex_;
   std::shared_ptr<const LabelledBuildings> last_;
 };

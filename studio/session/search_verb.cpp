@@ -1,9 +1,7 @@
-#include "studio/session/desk.h"
-
-#include "studio/session/pack_answer.h"
-
 #include "oriel/explain.h"
 #include "oriel/interpret.h"
+#include "studio/session/desk.h"
+#include "studio/session/pack_answer.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -39,8 +37,8 @@ class PartSearch {
     bool has_any = text_ == "unknown";
     for (std::size_t i = 0; i < classes.size(); ++i) {
       const int parent = classes[i].parent;
-      is_wanted[i] = classes[i].name == text_ ||
-                     (parent >= 0 && is_wanted[static_cast<std::size_t>(parent)]);
+      is_wanted[i] =
+          classes[i].name == text_ || (parent >= 0 && is_wanted[static_cast<std::size_t>(parent)]);
       has_any = has_any || is_wanted[i];
     }
     if (!has_any) return {};
@@ -92,8 +90,8 @@ class PartSearch {
       const LabelledFeatures& labelled = *all_.buildings[number];
       const PipelineResult& result = labelled.building->segmented;
       if (!result.is_done()) continue;
-      const auto names = feature_names(*result.segmentation, result.description.table,
-                                       &labelled.interpretation);
+      const auto names =
+          feature_names(*result.segmentation, result.description.table, &labelled.interpretation);
       for (const std::size_t feature : find_names(names, text_))
         found.parts.push_back({number, feature});
     }
@@ -118,8 +116,7 @@ FoundParts by_condition(Desk& desk, const LabelledBuildings& all, const std::str
     features[number] = selection.value->find(description.table, description.graph);
   });
   for (std::size_t number = 0; number < features.size(); ++number)
-    for (const FeatureId feature : features[number])
-      found.parts.push_back({number, feature.value});
+    for (const FeatureId feature : features[number]) found.parts.push_back({number, feature.value});
   return found;
 }
 
@@ -137,9 +134,11 @@ StudioJson answer_search(Desk& desk, const RequestBody& body) {
     if (found.empty()) found = search.by_id();
     if (found.empty()) found = by_condition(desk, *all, text, issues);
   }
+  StudioJson findings = StudioJson::array();
+  for (const Issue& issue : issues) findings.push_back(finding_json(issue));
   return {{"parts", std::move(found.parts)},
           {"buildings", std::move(found.buildings)},
-          {"findings", findings_json(issues, "", text)}};
+          {"findings", std::move(findings)}};
 }
 
 }  // namespace oriel::studio

@@ -1,5 +1,6 @@
 #include "studio/session/session.h"
 
+#include "studio/lsp/editing_json.h"
 #include "studio/session/desk.h"
 
 #include <map>
@@ -23,6 +24,7 @@ const std::map<std::string_view, Verb>& verbs() {
       {"geometry", answer_geometry},
       {"pack", [](Desk& desk, const RequestBody& body) { return desk.runner.run(body); }},
       {"save", [](Desk& desk, const RequestBody& body) { return desk.file.save(body); }},
+      {"scale", answer_scale},
       {"search", answer_search},
       {"state", answer_state},
       {"surfaces", answer_surfaces},
@@ -61,6 +63,7 @@ Session::Session(SessionOptions options) : inside_(std::make_unique<Inside>(std:
 Session::~Session() = default;
 
 Reply Session::answer(std::string_view verb, std::string_view body) {
+  if (verb == "language") return answer_language(body, inside_->desk.file.name());
   const auto found = verbs().find(verb);
   if (found == verbs().end()) return error_reply(404, fmt::format("there is no verb '{}'", verb));
   try {

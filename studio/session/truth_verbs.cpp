@@ -1,9 +1,7 @@
-#include "studio/session/desk.h"
-
-#include "studio/session/geometry_json.h"
-
 #include "oriel/corrections.h"
 #include "oriel/score.h"
+#include "studio/session/desk.h"
+#include "studio/session/geometry_json.h"
 
 #include <algorithm>
 #include <map>
@@ -73,8 +71,9 @@ StudioJson answer_corrections(Desk& desk, const RequestBody& /*body*/) {
     if (const auto found = numbers.find(correction.building); found != numbers.end()) {
       building = static_cast<int>(found->second);
       std::vector<Issue> issues;
-      const auto placed = Corrections({correction})
-                              .find(correction.building, buildings[found->second]->features, issues);
+      const auto placed =
+          Corrections({correction})
+              .find(correction.building, buildings[found->second]->features, issues);
       if (!placed.empty()) feature = static_cast<int>(placed.front().feature);
     }
     list.push_back({{"building", building},
