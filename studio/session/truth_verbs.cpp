@@ -53,7 +53,7 @@ StudioJson answer_correct(Desk& desk, const RequestBody& body) {
   correction.building = open.building->id;
   correction.feature = feature.id;
   // Ids change with the model; a point in its box finds the feature then.
-  correction.point = (feature.box.min + feature.box.max) * 0.5;
+  correction.point = 0.5 * (feature.box.min + feature.box.max);
   correction.label = label.value_or("");
   correction.by = body.optional_text("by").value_or("");
   correction.why = body.optional_text("why").value_or("");
