@@ -47,8 +47,8 @@ TEST_SUITE("studio/lsp") {
     const Json& finding = bodies[1]["params"]["diagnostics"][0];
     CHECK(finding["code"] == "R205");
     CHECK(finding["message"] == "unknown class 'dormr'; did you mean 'dormer'?");
-    CHECK(finding["range"]["start"] == Json{{"line", 4}, {"character", 22}});
-    CHECK(finding["range"]["end"] == Json{{"line", 4}, {"character", 27}});
+    CHECK(finding["range"]["start"] == Json{{"line", 4}, {"character", 21}});
+    CHECK(finding["range"]["end"] == Json{{"line", 4}, {"character", 26}});
     CHECK(bodies[2]["result"]["items"].size() > 20);
     CHECK(bodies[3]["result"]["contents"]["value"].get<std::string>().starts_with(
         "width: attribute"));
