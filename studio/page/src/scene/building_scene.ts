@@ -171,12 +171,14 @@ export class BuildingScene {
 
   /** To a selection, from outside and a little above; to everything if there is none. */
   fly(selection: Selection | null): void {
+    this.settle();
     if (!selection) return this.camera.flyTo(this.corners(), null);
     this.flyToRefs(this.refs.filter(ref => ref.building === selection.building &&
       (selection.feature === undefined && selection.polygon === undefined || isMeant(ref, selection))));
   }
 
   flyToParts(parts: Part[]): void {
+    this.settle();
     const wanted = new Set(parts.map(([b, f]) => `${b} ${f}`));
     this.flyToRefs(this.refs.filter(ref => ref.owners.some(f => wanted.has(`${ref.building} ${f}`))));
   }
@@ -314,6 +316,12 @@ export class BuildingScene {
   /** From the camera to the nearest place of a chunk, 0 within it. */
   private distanceTo(chunk: Chunk): number {
     return chunk.triangles > 0 ? chunk.mesh.geometry.boundingBox!.distanceToPoint(this.camera.three.position) : 0;
+  }
+
+  /** The picture has the shape of its place already before the browser tells of it. */
+  private settle(): void {
+    const {clientWidth: width, clientHeight: height} = this.element;
+    if (width > 0 && height > 0) this.camera.resize(width, height);
   }
 
   private resize(): void {
