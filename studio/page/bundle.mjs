@@ -4,6 +4,7 @@ import {build} from 'esbuild';
 import {createHash} from 'node:crypto';
 import {mkdirSync, readFileSync, readdirSync, writeFileSync} from 'node:fs';
 import path from 'node:path';
+import {sourcesHash} from './sources_hash.mjs';
 
 mkdirSync('dist', {recursive: true});
 // The page's materials are its own (scene/materials.ts), so the shaders that three.js brings for lit, textured and animated things are
@@ -57,6 +58,9 @@ for (const name of [...packages].sort()) {
   licences += `\n${'-'.repeat(80)}\n${name} ${version} (${license})\n\n${licenceOf(name)}`;
 }
 writeFileSync('dist/licences.txt', licences);
+
+// tests/studio/page/bundle_test.mjs asks whether these bundles are of these sources.
+writeFileSync('dist/sources.sha256', sourcesHash('.') + '\n');
 
 function licenceOf(name) {
   const folder = path.join('node_modules', name);
