@@ -105,8 +105,8 @@ def measure_opening(studio):
 def measure_keys(studio, text, repeat):
     kinds = {
         "a letter in a comment": lambda i: text + f"# {'a' * (i + 1)}\n",
-        "a param that decides windows": lambda i: with_other(text, r"(widest_window: \{value: )[\d.]+", rf"\g<1>{3 + i / 100:.2f}"),
-        "a param that decides doors": lambda i: with_other(text, r"(door_height: \{value: )[\d.]+", rf"\g<1>{1.7 + i / 100:.2f}"),
+        "a param that decides windows": lambda i: with_other(text, r"(widest_window:\s*\{value: )[\d.]+", rf"\g<1>{3 + i / 100:.2f}"),
+        "a param that decides doors": lambda i: with_other(text, r"(door_height:\s*\{value: )[\d.]+", rf"\g<1>{1.7 + i / 100:.2f}"),
         "a priority of a rule": lambda i: with_other(text, r"(priority: )\d+", rf"\g<1>{2 + i}"),
         "a pack that is wrong for a moment": lambda i: text + f"  - {{id: w{'x' * i}, label: windo\n",
     }
@@ -171,7 +171,12 @@ def measure_scales(studio, repeat):
 
 
 def measure_rest(studio, repeat):
-    line("explain a feature", [studio.ask("explain", {"building": 0, "feature": i})[2] for i in range(min(repeat, 10))])
+    state, _, _ = studio.ask("state", {})
+    building = max(range(len(state["buildings"])), key=lambda i: state["buildings"][i].get("features") or 0)
+    count = min(repeat, state["buildings"][building]["features"])
+    line("explain a feature", [studio.ask("explain", {"building": building, "feature": i})[2] for i in range(count)])
+    line("complete", [studio.ask("language", {"verb": "complete", "text": state["pack"]["text"], "line": 16, "column": 3})[2]
+                      for _ in range(repeat)])
     line("search: width > 3 m", [studio.ask("search", {"text": "width > 3 m"})[2] for _ in range(3)])
 
 
