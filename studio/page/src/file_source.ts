@@ -124,7 +124,8 @@ export class FileSource implements Source {
     return {
       rule: this.text(rule![1]), label: this.text(rule![3]), holds: this.text(rule![2]).startsWith('holds'), line: null, place: this.text(rule![4]),
       conditions: conditions.map(([indent, mark, found, asked]): ConditionRow => ({
-        text: '', found: this.text(found), asked: this.text(asked), line: null, depth: Math.max(0, (indent - 4) / 2), holds: holdsOf(this.text(mark))
+        text: '', found: this.text(found), asked: this.text(asked), line: null, depth: Math.max(0, (indent - 4) / 2), holds: holdsOf(this.text(mark)),
+        ...scoreOf(this.text(mark))
       }))
     };
   }
@@ -139,6 +140,9 @@ function holdsOf(mark: string): boolean | null {
   if (mark === 'holds') return true;
   return mark === 'fails' || mark === 'vetoes' ? false : null;
 }
+
+/** The row of a term of a score begins with what it was judged, from 0 to 1. */
+function scoreOf(mark: string): {score?: number} { return /^[01]\.\d+$/.test(mark) ? {score: Number(mark)} : {}; }
 
 function boxOf(building: FileBuilding, feature: number): BoxMm {
   const box: BoxMm = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];

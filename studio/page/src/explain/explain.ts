@@ -151,7 +151,7 @@ function conditionElement(condition: ConditionRow): HTMLElement {
   const kind = isTerm ? 'term' : kindOf(holds);
   const main = found || text;
   const more = [asked, missed_by, typeof score === 'number' ? words.explain.scores(score) : ''].filter((part): part is string => Boolean(part));
-  return el('li', {class: `condition is-${kind}`, style: {'--depth': String(depth)}, title: text},
+  return el('li', {class: `condition is-${kind}`, style: {'--depth': String(depth)}, title: text, 'data-found': found},
     el('span', {class: 'mark', role: 'img', 'aria-label': isTerm ? words.explain.scores(score ?? 0) : saidOf(holds)}, {open: '?', good: '✓', grave: '✗', term: '·'}[kind]),
     el(isCode(plainWords(main)) ? 'code' : 'span', {class: 'found'}, plainWords(main)),
     more.length > 0 ? el('span', {class: 'asked quiet'}, more.map(plainWords).join(', ')) : null);

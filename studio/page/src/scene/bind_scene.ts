@@ -194,7 +194,7 @@ class Binding {
     if (feature === undefined) return buildings.length > 1 || polygon === undefined ? entry : words.scene.surface;
     const label = classes[labelOf(this.app.store.value, building, feature)]?.name ?? words.scene.unknown;
     const name = geometry.get(building)?.features[feature]?.name ?? '';
-    return name && name !== label ? `${label} · ${name}` : label;
+    return name.startsWith(label) ? name : name ? `${label} · ${name}` : label;
   }
 }
 

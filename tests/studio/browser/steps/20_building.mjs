@@ -1,6 +1,6 @@
 export const title = 'a building is looked at, filtered, searched and explained';
 export const studio = {files: ['house.stripped.city.json', 'house.truth.json'], arguments: ['--truth', 'house.truth.json']};
-export const context = {viewport: {width: 1120, height: 640}, reducedMotion: 'reduce'};
+export const context = {viewport: {width: 1280, height: 720}, reducedMotion: 'reduce'};
 
 const kCanvas = '#scene canvas';
 

@@ -3,18 +3,21 @@ import {ready} from './20_building.mjs';
 
 const kCount = 120;
 
-/** Copies of a small house on a grid, in one file. */
+const sample = name => JSON.parse(readFileSync(new URL(`../../../../examples/samples/${name}.stripped.city.json`, import.meta.url), 'utf8'));
+
+/** Copies of three houses on a grid, in one file. */
 function city() {
-  const one = JSON.parse(readFileSync(new URL('../../../../examples/samples/hip.stripped.city.json', import.meta.url), 'utf8'));
-  const [[id, house]] = Object.entries(one.CityObjects);
-  const {scale} = one.transform;
+  const bases = ['hip', 'l-house', 'house'].map(sample);
+  const {scale} = bases[0].transform;
   const moved = (list, by) => list.map(entry => (Array.isArray(entry) ? moved(entry, by) : entry + by));
-  const all = {...one, CityObjects: {}, vertices: []};
+  const all = {...bases[0], CityObjects: {}, vertices: []};
   for (let i = 0; i < kCount; ++i) {
-    const at = [Math.round((i % 12) * 30 / scale[0]), Math.round(Math.floor(i / 12) * 30 / scale[1]), 0];
+    const one = bases[(i * 7 + Math.floor(i / 5)) % bases.length];
+    const at = [Math.round((i % 12) * 26 / scale[0]), Math.round(Math.floor(i / 12) * 26 / scale[1]), 0];
+    const house = Object.values(one.CityObjects)[0];
     const geometry = house.geometry.map(g => ({...g, boundaries: moved(g.boundaries, all.vertices.length)}));
-    all.CityObjects[`${id}-${i}`] = {...house, geometry};
-    for (const vertex of one.vertices) all.vertices.push(vertex.map((x, k) => x + at[k]));
+    all.CityObjects[`house-${i}`] = {...house, geometry};
+    for (const vertex of one.vertices) all.vertices.push(vertex.map((x, k) => Math.round(x * one.transform.scale[k] / scale[k]) + at[k]));
   }
   return JSON.stringify(all);
 }
