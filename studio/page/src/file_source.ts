@@ -137,12 +137,15 @@ export class FileSource implements Source {
 async function lacks(): Promise<never> { throw new SourceError(words.source.lacks, 501); }
 
 function holdsOf(mark: string): boolean | null {
-  if (mark === 'holds') return true;
+  if (mark === 'holds' || mark === 'no veto') return true;
   return mark === 'fails' || mark === 'vetoes' ? false : null;
 }
 
-/** The row of a term of a score begins with what it was judged, from 0 to 1. */
-function scoreOf(mark: string): {score?: number} { return /^[01]\.\d+$/.test(mark) ? {score: Number(mark)} : {}; }
+/** The row of a term of a score begins with what it was judged, from 0 to 1, and how much it counts: "0.80 x2". */
+function scoreOf(mark: string): {score?: number | null; weight?: number} {
+  const term = /^([01]\.\d+|-) x([\d.]+)$/.exec(mark);
+  return term ? {score: term[1] === '-' ? null : Number(term[1]), weight: Number(term[2])} : {};
+}
 
 function boxOf(building: FileBuilding, feature: number): BoxMm {
   const box: BoxMm = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
