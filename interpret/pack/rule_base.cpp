@@ -395,13 +395,6 @@ Checked<RuleBase> load_pack(std::string text, std::string file) {
 
 Checked<RuleBase> load_pack_file(const std::string& path) { return load(find_pack(path), path); }
 
-Checked<RuleBase> load_pack_text(std::string text, const std::string& path) {
-  return load(std::move(text), path, [&](const std::string& name) {
-    auto embedded = find_embedded(name);
-    return embedded ? embedded : find_beside(path, name);
-  });
-}
-
 namespace {
 
 Checked<std::string> format_found(std::optional<rules::FoundPack> found, const std::string& path) {

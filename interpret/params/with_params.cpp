@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -60,6 +61,45 @@ std::string number_text(double value, const std::string& unit) {
 
 std::string number_text(double value, const Param& param) {
   return number_text(value, rules::unit_of(param.dimension));
+}
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// Where the line that begins with `key` begins, or npos.
+std::size_t find_key(const std::string& text, const std::string& key) {
+  if (text.starts_with(key)) return 0;
+  const std::size_t found = text.find("\n" + key);
+  return found == std::string::npos ? found : found + 1;
+}
+
+/// `added` are lines of `params:` with two blanks before them. As deep as the first line that
+/// stands there; in a map on one line before its first entry.
+std::string with_added_params(std::string text, const std::string& added) {
+  if (added.empty()) return text;
+  const std::string key = "params:";
+  const std::size_t begin = find_key(text, key);
+  if (begin == std::string::npos) {
+    if (!text.empty() && !text.ends_with('\n')) text += '\n';
+    return text + key + "\n" + added;
+  }
+  const std::size_t end = std::min(text.find('\n', begin), text.size());
+  const std::size_t brace = text.find('{', begin);
+  std::string lines = added;
+  if (brace < end) {
+    for (char& c : lines)
+      if (c == '\n') c = ',';
+    return text.insert(brace + 1, lines.substr(2) + " ");
+  }
+  const std::size_t first = text.find_first_not_of(" \n", end);
+  const std::size_t line = first == std::string::npos ? end : text.rfind('\n', first) + 1;
+  const std::size_t depth = first == std::string::npos || first == line ? 2 : first - line;
+  lines.clear();
+  for (std::size_t at = 0; at < added.size();) {
+    const std::size_t next = added.find('\n', at) + 1;
+    lines += std::string(depth, ' ') + added.substr(at + 2, next - at - 2);
+    at = next;
+  }
+  return text.insert(end, "\n" + lines.substr(0, lines.size() - 1));
 }
 
 /// Where the text without blanks around it stands.
@@ -264,6 +304,28 @@ Checked<RuleBase> with_params(const RuleBase& base, std::span<const ParamValue> 
                                     : number_text(value.value, base.pack().params[at(param)])));
   }
   return with_params(base, texts);
+}
+
+std::string text_with_params(const RuleBase& base, std::string text,
+                             std::span<const ParamValue> values) {
+  const Pack& pack = base.pack();
+  std::map<SourceSpan, std::string> changes;
+  std::string added;
+  for (const ParamValue& value : values) {
+    const int number = rules::index_of(pack.params, value.name);
+    if (number < 0) continue;
+    const Param& param = pack.params[at(number)];
+    const std::string stated = number_text(value.value, param);
+    if (pack.source.is_in_first(param.value_span.begin))
+      changes[param.value_span] = stated;
+    else
+      added += fmt::format("  {}: {{value: {}}}\n", param.name, stated);
+  }
+  const std::size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  for (auto change = changes.rbegin(); change != changes.rend(); ++change)
+    text.replace(mark + change->first.begin, change->first.end - change->first.begin,
+                 change->second);
+  return with_added_params(std::move(text), added);
 }
 
 }  // namespace oriel

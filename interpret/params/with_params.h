@@ -55,4 +55,11 @@ Checked<RuleBase> with_params(const RuleBase& base, std::span<const std::string>
 /// The same with numbers.
 Checked<RuleBase> with_params(const RuleBase& base, std::span<const ParamValue> values);
 
+/// The text of a pack's own file, `text`, of which `base` was loaded, with params at other values:
+/// those that it states are changed where they stand, those of packs that it extends are added
+/// under `params:`; all else stays byte for byte. Loaded in its place it labels as with_params().
+/// Values of params that the pack does not have are left out.
+std::string text_with_params(const RuleBase& base, std::string text,
+                             std::span<const ParamValue> values);
+
 }  // namespace oriel

@@ -1,7 +1,9 @@
 #pragma once
 
 /// Rules that learn from samples (docs/learn.md): read_samples, join_samples, folds_of,
-/// learn_params, learnt_pack, open_questions, propose.
+/// learn_params, learnt_pack, open_questions, propose; and how well variants of a pack label
+/// samples: count_variants.
+#include "interpret/experiment/count_variants.h"      // IWYU pragma: export
 #include "interpret/experiment/learn/ask.h"           // IWYU pragma: export
 #include "interpret/experiment/learn/folds.h"         // IWYU pragma: export
 #include "interpret/experiment/learn/learn_params.h"  // IWYU pragma: export

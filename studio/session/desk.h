@@ -1,10 +1,12 @@
 #pragma once
 
 #include "studio/session/correction_book.h"
+#include "studio/session/learning_job.h"
 #include "studio/session/open_buildings.h"
 #include "studio/session/pack_file.h"
 #include "studio/session/pack_runner.h"
 #include "studio/session/request_body.h"
+#include "studio/session/sample_store.h"
 #include "studio/session/scale_cache.h"
 #include "studio/session/session.h"
 
@@ -29,6 +31,9 @@ struct Desk {
   OpenBuildings buildings;
   PackRunner runner;
   ScaleCache scales;
+  SampleStore samples;
+  /// The last member: it works with what it was given.
+  LearningJob learning;
 };
 
 /// A building that a request names, with what the last good pack says of it.
@@ -51,6 +56,9 @@ StudioJson answer_geometry(Desk& desk, const RequestBody& body);
 StudioJson answer_surfaces(Desk& desk, const RequestBody& body);
 StudioJson answer_explain(Desk& desk, const RequestBody& body);
 StudioJson answer_search(Desk& desk, const RequestBody& body);
+StudioJson answer_curve(Desk& desk, const RequestBody& body);
+StudioJson answer_learn(Desk& desk, const RequestBody& body);
+StudioJson answer_ask(Desk& desk, const RequestBody& body);
 StudioJson answer_scale(Desk& desk, const RequestBody& body);
 StudioJson answer_truth(Desk& desk, const RequestBody& body);
 StudioJson answer_correct(Desk& desk, const RequestBody& body);

@@ -10,10 +10,12 @@ namespace {
 constexpr double kMillimetres = 1000;
 
 void add_mm(const Vec3& p, StudioJson& list) {
-  for (const double metres : {p.x, p.y, p.z}) list.push_back(std::llround(kMillimetres * metres));
+  for (const double metres : {p.x, p.y, p.z}) list.push_back(whole_millimetres(metres));
 }
 
 }  // namespace
+
+std::int64_t whole_millimetres(double metres) { return std::llround(kMillimetres * metres); }
 
 StudioJson box_mm_json(const Box& box, const Vec3& origin_m) {
   StudioJson list = StudioJson::array();

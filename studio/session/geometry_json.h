@@ -4,7 +4,12 @@
 #include "oriel/result.h"
 #include "studio/session/request_body.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace oriel::studio {
+
+std::int64_t whole_millimetres(double metres);
 
 /// Numbers of points and boxes as the page has them: in whole millimetres from `origin_m`.
 StudioJson box_mm_json(const Box& box, const Vec3& origin_m);

@@ -17,11 +17,14 @@ using Verb = StudioJson (*)(Desk&, const RequestBody&);
 
 const std::map<std::string_view, Verb>& verbs() {
   static const std::map<std::string_view, Verb> all{
+      {"ask", answer_ask},
       {"correct", answer_correct},
       {"corrections", answer_corrections},
+      {"curve", answer_curve},
       {"disk", [](Desk& desk, const RequestBody&) { return desk.file.disk(); }},
       {"explain", answer_explain},
       {"geometry", answer_geometry},
+      {"learn", answer_learn},
       {"pack", [](Desk& desk, const RequestBody& body) { return desk.runner.run(body); }},
       {"save", [](Desk& desk, const RequestBody& body) { return desk.file.save(body); }},
       {"scale", answer_scale},

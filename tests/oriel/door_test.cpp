@@ -310,4 +310,125 @@ TEST_SUITE("oriel") {
     write(folder / "same.city.json", records, std::vector<OutputRecord>(1));
     CHECK(bytes_of(folder / "same.city.json") == bytes_of(sample("house")));
   }
+
+  TEST_CASE("a segmented building is labelled as if it was labelled at once") {
+    const auto documents = records_of("house.stripped.city.json");
+    const Building& building = documents.front().buildings.front();
+    for (const bool measures : {false, true}) {
+      LabelOptions options;
+      options.measures_surfaces = measures;
+      const PipelineResult once = label(building, residential(), options);
+      const PipelineResult twice =
+          label(building, segment(building, options), residential(), options);
+      REQUIRE(once.interpretation.verdicts.size() == twice.interpretation.verdicts.size());
+      for (std::size_t i = 0; i < once.interpretation.verdicts.size(); ++i) {
+        CHECK(once.interpretation.verdicts[i].label == twice.interpretation.verdicts[i].label);
+        CHECK(once.interpretation.verdicts[i].score == twice.interpretation.verdicts[i].score);
+      }
+      CHECK(once.issues.size() == twice.issues.size());
+      OutputRecord p, q;
+      add(once.output, p);
+      add(twice.output, q);
+      CHECK(write(documents.front(), p) == write(documents.front(), q));
+    }
+  }
+
+  TEST_CASE("packs label alike where only words and what is not of labels differ") {
+    const std::string text(embedded_pack("residential").value());
+    const auto changed = [&](const std::string& what, const std::string& by) {
+      std::string other = text;
+      const std::size_t at = other.find(what);
+      REQUIRE(at != std::string::npos);
+      return load_pack(other.replace(at, what.size(), by), "residential.yaml").value.value();
+    };
+    CHECK(is_labelling_alike(residential(), residential()));
+    CHECK(is_labelling_alike(residential(), changed("params:", "# a remark\nparams:")));
+    CHECK(is_labelling_alike(residential(), changed("{id: vents.omit,", "{id: vents.go,")));
+    CHECK(is_labelling_alike(residential(), changed("a parapet", "a low parapet")));
+    CHECK_FALSE(is_labelling_alike(residential(), changed("{value: 0.9 m,", "{value: 0.8 m,")));
+    CHECK_FALSE(is_labelling_alike(residential(), changed("window.in_wall", "window.in_a_wall")));
+    CHECK_FALSE(is_labelling_alike(residential(), load_pack_file("surfaces-only").value.value()));
+  }
+
+  TEST_CASE("classes and rules and params of a pack stand where they are written") {
+    const auto classes = classes_of(residential());
+    const auto opening = std::ranges::find(classes, "opening", &ClassOfPack::name);
+    const auto window = std::ranges::find(classes, "window", &ClassOfPack::name);
+    REQUIRE(window != classes.end());
+    CHECK(opening->is_abstract);
+    CHECK(window->parent == opening - classes.begin());
+    CHECK(opening->place.line < window->place.line);
+    const auto rules = rules_of(residential());
+    CHECK(rules.size() == residential().rule_count());
+    CHECK(places_of_params(residential()).size() == params_of(residential()).size());
+    for (const RuleOfPack& rule : rules) CHECK(rule.place.line > window->place.line);
+  }
+
+  TEST_CASE("a text with other values of params labels as the pack with them") {
+    const std::string text(embedded_pack("residential").value());
+    const std::vector<ParamValue> values{{"parapet", 0.7}, {"step", 0.25}};
+    const auto wanted = with_params(residential(), values);
+    const std::string own = text_with_params(residential(), text, values);
+    CHECK(is_labelling_alike(*load_pack(own, "residential.yaml").value, *wanted.value));
+    CHECK(std::ranges::count(own, '\n') == std::ranges::count(text, '\n'));
+    for (const std::string& above :
+         {std::string("schema: oriel/1\npack: {name: t, version: 1.0.0}\nextends: residential"),
+          std::string("schema: oriel/1\npack: {name: t, version: 1.0.0}\nextends: residential\n"
+                      "params:   # mine\n    # first\n    curb: {value: 0.5 m}\nrules: []\n"),
+          std::string("schema: oriel/1\npack: {name: t, version: 1.0.0}\nextends: residential\n"
+                      "params: {curb: {value: 0.5 m}}\n")}) {
+      const auto base = load_pack(above, "t.yaml");
+      REQUIRE(base.value);
+      const auto expected = with_params(*base.value, values);
+      const auto made = load_pack(text_with_params(*base.value, above, values), "t.yaml");
+      REQUIRE(made.value);
+      CHECK(is_labelling_alike(*made.value, *expected.value));
+      CHECK_FALSE(is_labelling_alike(*made.value, *base.value));
+    }
+    CHECK(text_with_params(residential(), text, {}) == text);
+  }
+
+  TEST_CASE("a condition selects the features of which it holds") {
+    const std::string text(embedded_pack("residential").value());
+    const auto documents = records_of("house.stripped.city.json");
+    const PipelineResult result = label(documents.front().buildings.front(), residential());
+    const auto& [table, graph, issues] = result.description;
+    const auto found = [&, &features = table, &links = graph](const std::string& condition) {
+      const auto selection = read_selection(condition, text, "residential");
+      REQUIRE(selection.value);
+      return selection.value->find(features, links);
+    };
+    std::vector<FeatureId> windows, wide;
+    for (const Verdict& verdict : result.interpretation.verdicts) {
+      if (verdict.label == "window") windows.push_back(verdict.feature);
+      if (table.number(verdict.feature, Attribute::width).value_or(0) > 1.5)
+        wide.push_back(verdict.feature);
+    }
+    CHECK(found("self is window") == windows);
+    CHECK(found("width > 1.5 m") == wide);
+    CHECK(found("width > 1.5 m and width < 1 m").empty());
+    const auto misspelt = read_selection("width > 1 m and heigth > 1 m", text, "residential");
+    CHECK_FALSE(misspelt.value);
+    REQUIRE(misspelt.issues.size() == 1);
+    CHECK(misspelt.issues[0].code == Code::R204);
+    CHECK(misspelt.issues[0].place.column == 17);
+    for (const char* wrong : {"", "it's", "a\nb", "]}", "width", "width > 1 deg"})
+      CHECK(has_errors(read_selection(wrong, text, "residential").issues));
+    CHECK(has_errors(read_selection("width > 1 m", "no pack", "residential").issues));
+  }
+
+  TEST_CASE("of every label without a rule that holds the nearest miss is known") {
+    const auto documents = records_of("house.stripped.city.json");
+    const PipelineResult result = label(documents.front().buildings.front(), residential());
+    const Explanation explanation = explain(result, residential(), FeatureId{0});
+    REQUIRE(explanation.near_misses.size() > 3);
+    CHECK(explanation.nearest_miss->rule == explanation.near_misses.front().rule);
+    CHECK(std::ranges::is_sorted(explanation.near_misses, {}, &NearestMiss::gap));
+    std::set<std::string> labels;
+    for (const NearestMiss& near : explanation.near_misses) {
+      CHECK_FALSE(near.misses.empty());
+      CHECK(labels.insert(explanation.rules[near.rule].label).second);
+      CHECK(explanation.rules[near.rule].label != explanation.verdict.label.text());
+    }
+  }
 }

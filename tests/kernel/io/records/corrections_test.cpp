@@ -37,6 +37,27 @@ TEST_SUITE("kernel/io") {
     CHECK(second.place.line == 3);
   }
 
+  TEST_CASE("corrections that are written are read as they were") {
+    std::vector<Correction> written(3);
+    written[0] = {"<img onerror=x>", "f1", {}, "door", "ada \"x\"", "two\nlines", {}};
+    written[1] = {"__proto__", "", Vec3{1, 2.5, -3e5}, "", "", "", {}};
+    written[2] = {"h", "f2", Vec3{0.1, 0, 0}, "window", "", "why", {}};
+    const auto read = corrections_in(corrections_text(written));
+    CHECK(read.issues.empty());
+    REQUIRE(read.value->size() == written.size());
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      const Correction& p = written[i];
+      const Correction& q = read.value->at(i);
+      CHECK(p.building == q.building);
+      CHECK(p.feature == q.feature);
+      CHECK(p.point == q.point);
+      CHECK(p.label == q.label);
+      CHECK(p.by == q.by);
+      CHECK(p.why == q.why);
+    }
+    CHECK(corrections_text({}).empty());
+  }
+
   TEST_CASE("a line that is no correction is left out and named") {
     for (const char* line :
          {R"({"feature":"f","class":"door"})", R"({"building":"h","feature":"f"})",
