@@ -183,12 +183,17 @@ Explanation Explainer::explain(FeatureId feature) const {
   return state_->explain(prover, feature);
 }
 
-Explanation Explainer::explain_fully(FeatureId feature) const {
+Explanation Explainer::explain_without_flip(FeatureId feature) const {
   Prover prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value);
   prover.look_for_nearest(state_->context);
   Explanation explanation = state_->explain(prover, feature);
   explanation.near_misses = find_near_misses(state_->base->pack(), explanation, prover);
   if (!explanation.near_misses.empty()) explanation.nearest_miss = explanation.near_misses.front();
+  return explanation;
+}
+
+Explanation Explainer::explain_fully(FeatureId feature) const {
+  Explanation explanation = explain_without_flip(feature);
   explanation.flip = find_flip(feature);
   return explanation;
 }

@@ -207,6 +207,9 @@ class Explainer {
   /// `feature` must be a row of the table. Without nearest misses and without a flip.
   [[nodiscard]] Explanation explain(FeatureId feature) const;
 
+  /// With nearest misses, without a flip: what takes time is to search for that.
+  [[nodiscard]] Explanation explain_without_flip(FeatureId feature) const;
+
   /// The same with all of them.
   [[nodiscard]] Explanation explain_fully(FeatureId feature) const;
 

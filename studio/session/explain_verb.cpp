@@ -224,8 +224,10 @@ StudioJson answer_explain(Desk& desk, const RequestBody& body) {
   const FeatureId feature = asked_feature(body, open);
   const auto& [table, graph, issues] = open.segmented.description;
   const Interpretation& interpretation = asked.labelled->interpretation;
-  Explanation explanation =
-      Explainer(asked.all->rules, table, graph, interpretation).explain_fully(feature);
+  const Explainer explainer(asked.all->rules, table, graph, interpretation);
+  // The page shows what is known at once, and asks for the flip where somebody stays.
+  Explanation explanation = body.flag("quick") ? explainer.explain_without_flip(feature)
+                                               : explainer.explain_fully(feature);
   explanation.name =
       feature_names(*open.segmented.segmentation, table, &interpretation).at(feature.index());
   StudioJson answer = ExplanationWriter(*asked.all, *asked.labelled, explanation, feature).json();

@@ -71,7 +71,9 @@ struct AskedFeature {
 };
 
 std::string sentence_of(const AskedFeature& asked, const OpenQuestion& question) {
-  const std::string sentence = plain_sentence(asked.labelled, asked.feature);
+  const LabelledFeatures& labelled = asked.labelled;
+  const std::string sentence =
+      plain_sentence(labelled.building->segmented, labelled.interpretation, asked.feature);
   if (question.disagreement > 0)
     return sentence + fmt::format("; {:.0f} % of what was learnt calls it something else",
                                   100 * question.disagreement);

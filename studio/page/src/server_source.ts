@@ -34,7 +34,7 @@ export class ServerSource implements Source {
   geometry(buildings: number[]) { return this.post('geometry', {buildings}); }
   surfaces(building: number) { return this.post('surfaces', {building}); }
   pack(question: PackQuestion) { return this.post('pack', question); }
-  explain(building: number, feature: number) { return this.post('explain', {building, feature}); }
+  explain(building: number, feature: number, quick = false) { return this.post('explain', {building, feature, quick}); }
   language(question: LanguageQuestion) { return this.post('language', question); }
   curve(param: string, ofClass?: string) { return this.post('curve', ofClass === undefined ? {param} : {param, class: ofClass}); }
   search(text: string) { return this.post('search', {text}); }

@@ -152,7 +152,8 @@ export interface Source {
   geometry(buildings: number[]): Promise<{buildings: BuildingGeometry[]}>;
   surfaces(building: number): Promise<SurfacesAnswer>;
   pack(question: PackQuestion): Promise<PackAnswer>;
-  explain(building: number, feature: number): Promise<ExplainAnswer>;
+  /** `quick`: without the flip, which may take seconds. */
+  explain(building: number, feature: number, quick?: boolean): Promise<ExplainAnswer>;
   language(question: LanguageQuestion & {verb: 'complete'}): Promise<CompleteAnswer>;
   language(question: LanguageQuestion & {verb: 'hover'}): Promise<HoverAnswer | null>;
   language(question: LanguageQuestion & {verb: 'definition'}): Promise<DefinitionAnswer | null>;

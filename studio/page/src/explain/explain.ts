@@ -24,7 +24,9 @@ export function explainPanel(app: App): Panel {
     if (!selection) return replace(body, ...(found.length > 0 ? foundList(app, found, found_title) : [el('p', {class: 'quiet'}, words.explain.nothing)]));
     try {
       const content = await contentOf(app, selection);
-      if (number === asked) replace(body, ...content);
+      if (number !== asked) return;
+      replace(body, ...content);
+      if (selection.feature !== undefined) await showFlip(app, [selection.building, selection.feature], body, () => number === asked);
     } catch (error) {
       if (number === asked) replace(body, el('p', {class: 'grave'}, error instanceof Error ? error.message : words.source.garbled));
     }
@@ -33,9 +35,24 @@ export function explainPanel(app: App): Panel {
   return {id: 'explain', title: words.explain.title, element};
 }
 
+/** What would change the label takes time to find: it is searched for where somebody stays. */
+async function showFlip(app: App, part: Part, body: HTMLElement, isShown: () => boolean): Promise<void> {
+  if (!app.source.can.edit) return;
+  await new Promise(done => setTimeout(done, 300));
+  if (!isShown()) return;
+  const answer = await app.source.explain(...part);
+  const place = body.querySelector<HTMLElement>('#flip-place');
+  if (isShown() && place) replace(place, ...flipContent(app, part, answer));
+}
+
+function flipContent(app: App, part: Part, answer: ExplainAnswer): HTMLElement[] {
+  const note = answer.flip ? el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line)) : null;
+  return [note, app.partTools?.(part, answer) ?? null].filter((child): child is HTMLElement => child !== null);
+}
+
 async function contentOf(app: App, selection: Selection): Promise<HTMLElement[]> {
   if (selection.feature !== undefined) {
-    const answer = await app.source.explain(selection.building, selection.feature);
+    const answer = await app.source.explain(selection.building, selection.feature, true);
     return featureContent(app, [selection.building, selection.feature], answer);
   }
   if (selection.polygon !== undefined) {
@@ -87,8 +104,7 @@ function featureContent(app: App, [building, feature]: Part, answer: ExplainAnsw
     el('p', {class: 'sentence', id: 'sentence'}, rest.join('')),
     about ? el('p', {class: 'quiet small', id: 'name'}, about.name) : null,
     answer.correction ? el('p', {class: 'note'}, words.explain.corrected(answer.correction.class)) : null,
-    answer.flip ? el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line)) : null,
-    app.partTools?.([building, feature], answer) ?? null,
+    el('div', {id: 'flip-place'}, ...flipContent(app, [building, feature], answer)),
     section(words.explain.why, 'why', answer.why.filter(isReason).map(rule => ruleElement(app, rule, rule.rule === answer.rule)), words.explain.noRule),
     section(words.explain.whyNot, 'whynot', [...missElements(app, answer.why_not), othersElement(app, answer.why.filter(rule => !isReason(rule)))]),
     section(words.explain.relations, 'relations', answer.relations.filter(r => r.features.length > 0).map(r => relationElement(app, building, r))),

@@ -122,7 +122,7 @@ class Binding {
     const of = `${building} ${feature} ${this.app.store.value.version}`;
     if (this.relations.of === of) return this.relations.entries;
     try {
-      const entries = (await this.app.source.explain(building, feature)).relations;
+      const entries = (await this.app.source.explain(building, feature, true)).relations;
       this.relations = {of, entries};
       return entries;
     } catch {
