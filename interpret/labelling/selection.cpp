@@ -52,7 +52,8 @@ std::vector<Issue> issues_of_condition(std::vector<Issue> issues, int column) {
 
 }  // namespace
 
-std::vector<FeatureId> Selection::find(const FeatureTable& table, const FeatureGraph& graph) const {
+std::vector<FeatureId> FeatureSelection::find(const FeatureTable& table,
+                                              const FeatureGraph& graph) const {
   std::vector<FeatureId> found;
   const rules::Pack& pack = rules_.pack();
   rules::EvaluationContext context(pack, table, graph);
@@ -65,9 +66,9 @@ std::vector<FeatureId> Selection::find(const FeatureTable& table, const FeatureG
   return found;
 }
 
-Checked<Selection> read_selection(const std::string& text, const std::string& pack_text,
-                                  const std::string& pack_path,
-                                  const std::vector<std::string>& assignments) {
+Checked<FeatureSelection> read_selection(const std::string& text, const std::string& pack_text,
+                                         const std::string& pack_path,
+                                         const std::vector<std::string>& assignments) {
   if (text.find_first_of("'\n\r") != std::string::npos)
     return {std::nullopt,
             {refused_condition("a condition stands on one line and has no quotes in it")}};
@@ -78,7 +79,8 @@ Checked<Selection> read_selection(const std::string& text, const std::string& pa
   int column = 0;
   std::string wrapped = pack_of_condition(text, column);
   auto read = rules::read_pack_text(std::move(wrapped), kFile, find);
-  Checked<Selection> result{std::nullopt, issues_of_condition(std::move(read.issues), column)};
+  Checked<FeatureSelection> result{std::nullopt,
+                                   issues_of_condition(std::move(read.issues), column)};
   if (!read.is_good) return result;
   auto changed = with_params(RuleBase(read.pack), assignments);
   result.issues.insert(result.issues.end(), changed.issues.begin(), changed.issues.end());

@@ -13,10 +13,10 @@ namespace oriel {
 
 /// A condition over features in the words of a pack: its attributes, relations, classes, params and
 /// macros (`width > 3 m and not is window`).
-class Selection {
+class FeatureSelection {
  public:
   /// As read_selection() makes it: the last rule is the condition.
-  explicit Selection(RuleBase rules) : rules_(std::move(rules)) {}
+  explicit FeatureSelection(RuleBase rules) : rules_(std::move(rules)) {}
 
   /// The features of a building for which the condition holds, ascending. Labels that it asks for
   /// are those that interpret() gives with the pack.
@@ -31,8 +31,8 @@ class Selection {
 /// and with params at other values (with_params). Issues are the errors of the
 /// condition, with codes as in packs, at their column in `text`, line 1; those of a pack that
 /// cannot be loaded; there is no value then.
-Checked<Selection> read_selection(const std::string& text, const std::string& pack_text,
-                                  const std::string& pack_path,
-                                  const std::vector<std::string>& assignments = {});
+Checked<FeatureSelection> read_selection(const std::string& text, const std::string& pack_text,
+                                         const std::string& pack_path,
+                                         const std::vector<std::string>& assignments = {});
 
 }  // namespace oriel
