@@ -312,7 +312,7 @@ TEST_SUITE("oriel") {
   }
 
   TEST_CASE("a segmented building is labelled as if it was labelled at once") {
-    const auto documents = records_of("house.stripped.city.json");
+    const auto documents = records_of("house");
     const Building& building = documents.front().buildings.front();
     for (const bool measures : {false, true}) {
       LabelOptions options;
@@ -390,7 +390,7 @@ TEST_SUITE("oriel") {
 
   TEST_CASE("a condition selects the features of which it holds") {
     const std::string text(embedded_pack("residential").value());
-    const auto documents = records_of("house.stripped.city.json");
+    const auto documents = records_of("house");
     const PipelineResult result = label(documents.front().buildings.front(), residential());
     const auto& [table, graph, issues] = result.description;
     const auto found = [&, &features = table, &links = graph](const std::string& condition) {
@@ -418,7 +418,7 @@ TEST_SUITE("oriel") {
   }
 
   TEST_CASE("of every label without a rule that holds the nearest miss is known") {
-    const auto documents = records_of("house.stripped.city.json");
+    const auto documents = records_of("house");
     const PipelineResult result = label(documents.front().buildings.front(), residential());
     const Explanation explanation = explain(result, residential(), FeatureId{0});
     REQUIRE(explanation.near_misses.size() > 3);
