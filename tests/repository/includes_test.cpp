@@ -51,6 +51,7 @@ const std::map<std::string, std::string> kAllowed{
 const std::map<std::string, std::string> kAllowedInStudio{
     {"interpret/experiment/parallel.h", "shares of the work"},
     {"kernel/base/code.h", "codes of refusals"},
+    {"kernel/base/counted.h", "counts with the right form of their noun"},
     {"kernel/base/ids.h", "numbers of features"},
     {"kernel/base/issue.h", "what is reported, with its code"},
     {"kernel/base/sha256.h", "whether a file is still the one that was opened"},
