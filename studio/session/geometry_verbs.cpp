@@ -17,8 +17,6 @@ namespace oriel::studio {
 
 namespace {
 
-constexpr double kMillimetresOfVerbs = 1000;
-
 /// What the slider of scales stops at: denominators.
 constexpr int kScales[] = {1, 500, 1000, 2500, 5000, 10000, 25000};
 
@@ -90,8 +88,7 @@ StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* label
 StudioJson storeys_json(const OpenBuilding& open, const Vec3& origin_m) {
   StudioJson list = StudioJson::array();
   for (const double floor_m : storey_floors(*open.building, open.segmented))
-    list.push_back(std::llround(kMillimetresOfVerbs *
-                                (floor_m + open.building->frame.origin_m.z - origin_m.z)));
+    list.push_back(whole_millimetres(floor_m + open.building->frame.origin_m.z - origin_m.z));
   return list;
 }
 
