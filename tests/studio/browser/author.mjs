@@ -39,13 +39,11 @@ async function countOf(page, name) {
   return (await known(page)).counts.find(entry => entry.class === name)?.count ?? 0;
 }
 
-/** Puts the cursor behind the first place where the pack has `text`, with that text chosen. */
-async function chooseText(page, text) {
-  await page.click('.panel.editor .cm-content');
-  await page.keyboard.press('Control+f');
-  await page.fill('.cm-search input[name=search]', text);
-  await page.keyboard.press('Enter');
-  await page.keyboard.press('Escape');
+/** Goes to the condition on heights, line 13 of the pack, and chooses the attribute in it. */
+async function chooseHeight(page) {
+  await page.evaluate(() => window.oriel.openLine(13));
+  for (let i = 0; i < '- '.length; ++i) await page.keyboard.press('ArrowRight');
+  for (let i = 0; i < 'height'.length; ++i) await page.keyboard.press('Shift+ArrowRight');
 }
 
 /** From nothing to windows and doors: one of the beginnings that an empty editor offers. */
@@ -61,8 +59,9 @@ export async function beginPack(page, picture) {
 /** A mistake is underlined with its advice while the labels stay, and the fix mends it. */
 export async function mendMistake(page, picture) {
   const counts = (await known(page)).counts;
-  await chooseText(page, 'height >= 0.4 m');
-  await page.keyboard.type('heigth >= 0.4 m');
+  await chooseHeight(page);
+  await page.keyboard.type('heigth');
+  await page.keyboard.press('Escape');
   await page.waitForSelector('.cm-lintRange-error', {timeout: kWait_ms});
   await says(page, '.status', /last good version/);
   assert.deepEqual((await known(page)).counts, counts);
@@ -76,8 +75,8 @@ export async function mendMistake(page, picture) {
 
 /** Completion inside an expression knows attributes with unit and meaning, and hover says what a word is. */
 export async function complete(page, picture) {
-  await chooseText(page, 'height >= 0.4 m');
-  await page.keyboard.press('ArrowRight');
+  await chooseHeight(page);
+  await page.keyboard.press('End');
   await page.keyboard.type(' and base_h');
   await says(page, '.cm-tooltip-autocomplete', /base_height/);
   await page.waitForTimeout(100);  // an answer to an older text may be drawn still, and Enter waits as long
@@ -142,6 +141,7 @@ export async function correctLabel(page, picture, correctionsOnDisk) {
   const part = (await known(page)).found[0];
   await page.evaluate(([building, feature]) => window.oriel.select({building, feature}, true), part);
   await page.click('#panel-explain .part-tools .button');
+  await page.waitForSelector('.correct-menu input:focus');
   await page.keyboard.type('door');
   await page.waitForTimeout(50);
   await picture('correction');

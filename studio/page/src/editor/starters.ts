@@ -21,7 +21,7 @@ rules:
     priority: 10
     require:
       - sense in [hole, imprint] and host is wall
-      - base_height <= 0.6 m and height >= $door_height
+      - base_height <= 1.2 m and height >= $door_height
 generalise:
   - {id: openings.omit, scale: "1:5000 ..", for: any, do: omit}
 `;
