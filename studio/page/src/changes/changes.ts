@@ -6,7 +6,7 @@ import type {Change, Part} from '../source';
 import {words} from '../strings';
 import {changesSince, groupsOf, snapshotOf, type ChangeGroup, type Snapshot} from './baseline';
 
-/** Edits that follow each other faster than this are one: a word being typed, a slider being dragged. */
+/** Edits that follow each other faster than this are one: words being typed, or one slider being dragged. */
 const kBurst_ms = 1500;
 /** Parts listed by name in a group; the group itself shows all of them. */
 const kListed = 200;
@@ -21,6 +21,7 @@ class Changes {
     el('option', {value: 'edit'}, words.changes.sinceEdit), el('option', {value: 'save'}, words.changes.sinceSave));
   private readonly marks: Record<Since, {labels: Snapshot; f1: number | null}> = {edit: {labels: new Map(), f1: null}, save: {labels: new Map(), f1: null}};
   private editedAt = -Infinity;
+  private editedParam: string | null = null;
   private savedText: string | null = null;
   private isSaveUnmarked = false;
 
@@ -28,13 +29,13 @@ class Changes {
     const author = authorOf(app);
     this.since.addEventListener('change', () => this.compare());
     this.element = el('div', {class: 'panel changes'}, el('div', {class: 'changes-head'}, this.sum, this.since), this.list);
-    author.watch(() => this.onText());
+    author.watch(param => this.onText(param));
     author.loop.onAnswer(() => { this.markSave(); this.compare(); });
     app.store.watch(['labels'], () => this.onLabels());
   }
 
   /** A new burst of edits begins: what is on the screen now is "before". */
-  private onText(): void {
+  private onText(param: string | null): void {
     const author = authorOf(this.app);
     if (this.savedText !== author.savedText) {
       this.savedText = author.savedText;
@@ -43,8 +44,9 @@ class Changes {
       return;
     }
     const now = performance.now();
-    if (now - this.editedAt > kBurst_ms) this.mark('edit');
+    if (now - this.editedAt > kBurst_ms || param !== this.editedParam) this.mark('edit');
     this.editedAt = now;
+    this.editedParam = param;
   }
 
   /** A pack that was changed while it was written is marked when its labels have come. */
