@@ -5,11 +5,11 @@
 /// shows them at work.
 
 #include "oriel/corrections.h"             // IWYU pragma: export
+#include "oriel/editing.h"                 // IWYU pragma: export
 #include "oriel/experiments/count.h"       // IWYU pragma: export
 #include "oriel/experiments/experiment.h"  // IWYU pragma: export
 #include "oriel/experiments/learn.h"       // IWYU pragma: export
 #include "oriel/experiments/perturb.h"     // IWYU pragma: export
-#include "oriel/editing.h"                 // IWYU pragma: export
 #include "oriel/explain.h"                 // IWYU pragma: export
 #include "oriel/generalise.h"              // IWYU pragma: export
 #include "oriel/interpret.h"               // IWYU pragma: export

@@ -1,4 +1,5 @@
 #include "oriel/editing.h"
+
 #include "tests/fuzz/targets.h"
 
 #include <string>
