@@ -171,12 +171,13 @@ export async function learn(page, picture) {
 
 /** The slider of scales draws the generalised building beside the original. */
 export async function generalise(page, picture) {
+  await page.evaluate(() => window.oriel.select({building: 1}));
   await front(page, 'scale');
   await page.locator('.scale-slider').focus();
   await page.keyboard.press('End');
   await page.waitForSelector('.divider', {timeout: kWait_ms});
   await says(page, '.scale-outcomes', /omit/);
-  await page.waitForTimeout(400);
+  await page.waitForTimeout(1500);  // a second picture has its first frame, and the flight to the building ends
   await picture('scale');
   await page.keyboard.press('Home');
   await page.waitForSelector('.divider', {state: 'hidden'});
