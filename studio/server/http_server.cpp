@@ -1,5 +1,6 @@
 #include "studio/server/http_server.h"
 
+#include "kernel/base/code.h"
 #include "kernel/base/log.h"
 #include "studio/server/page_files.h"
 #include "studio/server/token.h"
@@ -111,7 +112,7 @@ void log_refusal(const httplib::Request& request, const httplib::Response& respo
 /// The server takes a socket that was opened elsewhere.
 class HttpServer::Inside : public httplib::Server {
  public:
-  Inside(int listening, ServedAt served, Answer answer)
+  Inside(int listening, ServedAt served, VerbAnswer answer)
       : served_(std::move(served)), answer_(std::move(answer)) {
     svr_sock_ = ::dup(listening);
     new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
@@ -203,18 +204,19 @@ class HttpServer::Inside : public httplib::Server {
     try {
       std::rethrow_exception(fault);
     } catch (const std::bad_alloc&) {
-      return error_reply(503, "there is not enough memory for this", "E507");
+      return error_reply(503, "there is not enough memory for this", to_string(Code::E507));
     } catch (const std::exception& exception) {
       log("studio").write(LogLevel::error, exception.what());
-      return error_reply(500, std::string("a fault of oriel's own: ") + exception.what(), "E901");
+      return error_reply(500, std::string("a fault of oriel's own: ") + exception.what(),
+                         to_string(Code::E901));
     }
   }
 
   ServedAt served_;
-  Answer answer_;
+  VerbAnswer answer_;
 };
 
-HttpServer::HttpServer(int listening, ServedAt served, Answer answer)
+HttpServer::HttpServer(int listening, ServedAt served, VerbAnswer answer)
     : inside_(std::make_unique<Inside>(listening, std::move(served), std::move(answer))) {}
 
 HttpServer::~HttpServer() = default;

@@ -10,7 +10,7 @@
 namespace oriel::studio {
 
 /// Answers a verb; called from many threads.
-using Answer = std::function<Reply(std::string_view verb, std::string_view body)>;
+using VerbAnswer = std::function<Reply(std::string_view verb, std::string_view body)>;
 
 /// The studio's HTTP (cpp-httplib), on a socket that listens already: the files of the page, and
 /// `POST /api/VERB`. Answers carry a Content-Security-Policy that lets the page load nothing from
@@ -18,7 +18,7 @@ using Answer = std::function<Reply(std::string_view verb, std::string_view body)
 /// warning of the log "studio". A connection carries one request.
 class HttpServer {
  public:
-  HttpServer(int listening, ServedAt served, Answer answer);
+  HttpServer(int listening, ServedAt served, VerbAnswer answer);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;

@@ -11,7 +11,7 @@ namespace oriel::studio {
 
 namespace {
 
-struct Reach {
+struct StoreyReach {
   double low = Box::kInfinity;
   double high = -Box::kInfinity;
 };
@@ -19,14 +19,14 @@ struct Reach {
 }  // namespace
 
 std::vector<double> storey_floors(const Building& building, const PipelineResult& result) {
-  std::map<double, Reach> storeys;
+  std::map<double, StoreyReach> storeys;
   if (!result.is_done()) return {};
   for (std::size_t i = 0; i < result.segmentation->features.size(); ++i) {
     const auto storey =
         result.description.table.number(FeatureId{static_cast<int>(i)}, Attribute::storey);
     if (!storey) continue;
     const Box& box = result.segmentation->features[i].box;
-    Reach& reach = storeys[*storey];
+    StoreyReach& reach = storeys[*storey];
     reach.low = std::min(reach.low, box.min.z);
     reach.high = std::max(reach.high, box.max.z);
   }

@@ -59,6 +59,7 @@ const std::map<std::string, std::string> kAllowedInStudio{
     {"kernel/io/files/output_file.h", "packs and corrections appear when they are whole"},
     {"kernel/model/building.h", "a value"},
     {"kernel/model/description/attributes.h", "attributes are listed with unit and meaning"},
+    {"kernel/model/interpretation.h", "a value"},
     {"kernel/model/polygon_owners.h", "which features a polygon lies in"},
     {"kernel/model/segmentation.h", "a value"},
     {"kernel/model/version.h", "the version in `state`"},

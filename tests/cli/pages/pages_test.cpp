@@ -19,8 +19,8 @@ namespace {
 
 /// Blocks of output, of what is run or loaded here, and of what is compared with sources.
 const std::set<std::string> kLanguages{
-    "",    "text", "console", "sh",    "yaml",   "json",
-    "sql", "cpp",  "cmake",   "first", "python", "pycon"};  // run by tests/python/pages_test.py
+    "",      "text",  "console", "sh",  "yaml",  "json", "sql", "cpp",
+    "cmake", "first", "python",  "lua", "elisp", "pycon"};  // run by tests/python/pages_test.py
 
 /// Programs that a page may use and a machine may not have.
 const std::vector<std::string> kGuests{"cjio",    "docker",    "duckdb",  "jq",      "parallel",

@@ -45,7 +45,8 @@ async function search(app: App, text: string): Promise<void> {
   if (!app.source.can.search) return store.say(words.search.nothing(text), true);
   try {
     const {parts, findings} = await app.source.search(text);
-    if (findings.length > 0) return store.say(findings[0]!.sentence, true);
+    // A word that is no attribute is a name that nothing has; only conditions can be wrong.
+    if (findings.length > 0) return store.say(/[<>=$(]/.test(text) ? findings[0]!.sentence : words.search.nothing(text), true);
     if (parts.length === 0) return store.say(words.search.nothing(text), true);
     store.say(words.search.found(parts.length, text));
     if (parts.length === 1) app.select({building: parts[0]![0], feature: parts[0]![1]}, true);
