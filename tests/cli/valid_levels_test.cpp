@@ -384,16 +384,16 @@ TEST_SUITE("cli") {
   TEST_CASE("slow: what is generalised of the data and of generated houses is valid in the file" *
             doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
     // ORIEL_SLOW=1000 for as many houses, all of the tile and all other files; CI takes fewer
-    // houses, a sixth of the tile and every fourth file.
+    // houses, a twelfth of the tile and every fourth file.
     const int asked = std::atoi(std::getenv("ORIEL_SLOW"));
-    const int houses = std::max(40, asked);
+    const int houses = std::max(20, asked);
     const Folder folder;
     CHECK(check_valid("generated", generated(houses, folder)) >
           static_cast<std::size_t>(6 * houses));
     ORIEL_NEEDS_SHARED(shared);
     const std::string tile = shared / "data/3dbag/tile_5910.city.jsonl";
     std::map<std::string, Names> data{
-        {"3dbag", {folder.write("tile.city.jsonl", every_record(asked > 1 ? 1 : 6, tile))}}};
+        {"3dbag", {folder.write("tile.city.jsonl", every_record(asked > 1 ? 1 : 12, tile))}}};
     std::size_t number = 0;
     for (const std::string& file : city_files(shared))
       if (file.ends_with(".stripped.city.json") && (asked > 1 || number++ % 4 == 0))
