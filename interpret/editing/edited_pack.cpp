@@ -1,8 +1,8 @@
 #include "interpret/editing/edited_pack.h"
 
+#include "interpret/editing/cursor/word_at.h"
 #include "interpret/editing/layers.h"
 #include "interpret/editing/renaming.h"
-#include "interpret/editing/word_at.h"
 #include "interpret/pack/read_pack.h"
 #include "interpret/plan/profile.h"
 #include "interpret/testing/test_file.h"

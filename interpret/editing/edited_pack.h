@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpret/editing/completion.h"
+#include "interpret/editing/completion/completion.h"
 #include "interpret/editing/pack_outline.h"
 #include "interpret/editing/quick_fixes.h"
 #include "interpret/editing/text_places.h"

@@ -1,7 +1,7 @@
 #include "interpret/editing/layers.h"
 
-#include "interpret/editing/tolerant_tree.h"
-#include "interpret/editing/yaml_path.h"
+#include "interpret/editing/cursor/tolerant_tree.h"
+#include "interpret/editing/cursor/yaml_path.h"
 
 #include <algorithm>
 #include <array>

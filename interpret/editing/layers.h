@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpret/editing/expression_words.h"
+#include "interpret/editing/cursor/expression_words.h"
 #include "interpret/language/source.h"
 #include "interpret/pack/extend.h"
 #include "interpret/yaml/yaml_tree.h"

@@ -1,7 +1,7 @@
 #include "interpret/editing/pack_outline.h"
 
-#include "interpret/editing/word_texts.h"
-#include "interpret/editing/yaml_path.h"
+#include "interpret/editing/cursor/word_texts.h"
+#include "interpret/editing/cursor/yaml_path.h"
 
 #include <algorithm>
 #include <string_view>

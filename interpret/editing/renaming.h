@@ -1,7 +1,7 @@
 #pragma once
 
+#include "interpret/editing/cursor/word_at.h"
 #include "interpret/editing/text_places.h"
-#include "interpret/editing/word_at.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "oriel/experiments/learning_parts.h"
 
 #include "interpret/experiment/learn/learn_params.h"
-#include "interpret/experiment/learn/param_fit.h"
+#include "interpret/experiment/learn/search/param_fit.h"
 #include "interpret/experiment/measure.h"
 #include "interpret/experiment/result_rows.h"
 #include "kernel/base/counted.h"

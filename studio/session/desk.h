@@ -1,12 +1,12 @@
 #pragma once
 
-#include "studio/session/correction_book.h"
-#include "studio/session/learning_job.h"
+#include "studio/session/labels/pack_runner.h"
+#include "studio/session/learning/correction_book.h"
+#include "studio/session/learning/learning_job.h"
+#include "studio/session/learning/sample_store.h"
 #include "studio/session/open_buildings.h"
 #include "studio/session/pack_file.h"
-#include "studio/session/pack_runner.h"
 #include "studio/session/request_body.h"
-#include "studio/session/sample_store.h"
 #include "studio/session/scale_cache.h"
 #include "studio/session/session.h"
 

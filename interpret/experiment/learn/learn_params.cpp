@@ -1,7 +1,7 @@
 #include "interpret/experiment/learn/learn_params.h"
 
 #include "interpret/experiment/learn/learning_set.h"
-#include "interpret/experiment/learn/param_fit.h"
+#include "interpret/experiment/learn/search/param_fit.h"
 #include "interpret/language/quantity.h"
 #include "interpret/language/suggest.h"
 #include "interpret/pack/names.h"

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "interpret/experiment/learn/folds.h"
-#include "interpret/experiment/learn/knife_edges.h"
 #include "interpret/experiment/learn/objective.h"
+#include "interpret/experiment/learn/search/knife_edges.h"
 #include "interpret/experiment/parallel.h"
 #include "interpret/experiment/sample.h"
 #include "interpret/pack/rule_base.h"

@@ -2,7 +2,7 @@
 
 #include "interpret/experiment/label_counter.h"
 #include "interpret/experiment/learn/objective.h"
-#include "interpret/experiment/learn/param_curve.h"
+#include "interpret/experiment/learn/search/param_curve.h"
 #include "interpret/experiment/parallel.h"
 #include "interpret/experiment/relabelling.h"
 #include "interpret/experiment/rule_uses.h"

@@ -1,8 +1,8 @@
 #include "interpret/experiment/learn/propose.h"
 
 #include "interpret/experiment/count_variants.h"
-#include "interpret/experiment/learn/param_curve.h"
-#include "interpret/experiment/learn/plateau.h"
+#include "interpret/experiment/learn/search/param_curve.h"
+#include "interpret/experiment/learn/search/plateau.h"
 #include "interpret/experiment/relabelling.h"
 #include "interpret/language/quantity.h"
 #include "interpret/pack/names.h"

@@ -2,7 +2,7 @@
 #include "oriel/explain.h"
 #include "oriel/rules.h"
 #include "studio/session/desk.h"
-#include "studio/session/pack_answer.h"
+#include "studio/session/labels/pack_answer.h"
 #include "studio/session/plain_sentence.h"
 
 #include <algorithm>

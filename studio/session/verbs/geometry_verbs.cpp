@@ -3,7 +3,7 @@
 #include "oriel/generalise.h"
 #include "studio/session/desk.h"
 #include "studio/session/geometry_json.h"
-#include "studio/session/pack_answer.h"
+#include "studio/session/labels/pack_answer.h"
 #include "studio/session/plain_sentence.h"
 #include "studio/session/storeys.h"
 

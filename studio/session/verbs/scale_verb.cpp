@@ -1,7 +1,7 @@
 #include "oriel/generalise.h"
 #include "studio/session/desk.h"
 #include "studio/session/geometry_json.h"
-#include "studio/session/pack_answer.h"
+#include "studio/session/labels/pack_answer.h"
 #include "studio/session/work_log.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "oriel/explain.h"
 #include "oriel/interpret.h"
 #include "studio/session/desk.h"
-#include "studio/session/pack_answer.h"
+#include "studio/session/labels/pack_answer.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #include "interpret/experiment/learn/ask.h"
 #include "interpret/experiment/learn/learning_set.h"
 #include "interpret/experiment/learn/learnt_pack.h"
-#include "interpret/experiment/learn/param_fit.h"
-#include "interpret/experiment/learn/plateau.h"
+#include "interpret/experiment/learn/search/param_fit.h"
+#include "interpret/experiment/learn/search/plateau.h"
 #include "tests/interpret/experiment/random_samples.h"
 
 #include <numeric>
