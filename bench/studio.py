@@ -34,6 +34,7 @@ class Studio:
         address = urllib.parse.urlparse(self.process.stdout.readline().strip())
         self.port, self.token = address.port, urllib.parse.parse_qs(address.query)["token"][0]
         self.version = 0
+        self.number = 0  # of the labels at hand, as the page keeps it
 
     def ask(self, verb, body):
         """The answer, its bytes and the seconds it took to come and to be read."""
@@ -52,12 +53,12 @@ class Studio:
     def type(self, text, params=None, everything=False):
         """A keystroke: the pack has another text."""
         self.version += 1
-        body = {"text": text, "version": self.version}
+        body = {"text": text, "version": self.version, "since": 0 if everything else self.number}
         if params:
             body["params"] = params
-        if everything:
-            body["all"] = True
-        return self.ask("pack", body)
+        asked = self.ask("pack", body)
+        self.number = asked[0].get("number", self.number)
+        return asked
 
     def close(self):
         self.process.send_signal(signal.SIGINT)
@@ -131,7 +132,7 @@ def measure_burst(studio, text, repeat):
         answers = []
         for i in range(10):
             version = studio.version = studio.version + 1
-            body = {"text": text + f"# {'b' * (i + 1)}\n", "version": version}
+            body = {"text": text + f"# {'b' * (i + 1)}\n", "version": version, "since": studio.number}
             thread = threading.Thread(target=lambda b=body: answers.append((b["version"], studio.ask("pack", b)[2])))
             thread.start()
             time.sleep(0.03)

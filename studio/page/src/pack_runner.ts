@@ -5,6 +5,8 @@ import type {Store} from './store';
 
 export class PackRunner {
   private version = 0;
+  /** Of the labels that are at hand; 0: none. */
+  private number = 0;
 
   constructor(private readonly source: Source, private readonly store: Store) {}
 
@@ -13,7 +15,7 @@ export class PackRunner {
     const version = ++this.version;
     let answer: PackAnswer;
     try {
-      answer = await this.source.pack({text, version, ...(params ? {params} : {}), ...(all ? {all} : {})});
+      answer = await this.source.pack({text, version, ...(params ? {params} : {}), since: all ? 0 : this.number});
     } catch (error) {
       if (error instanceof SourceError && error.isSuperseded) return false;
       throw error;
@@ -24,13 +26,14 @@ export class PackRunner {
     return true;
   }
 
-  /** The labels of an overtaken answer count still: the source gives each change of a label only once. */
+  /** The labels of an overtaken answer count still: the next one has what changed since them. */
   private keepLabels(answer: PackAnswer): boolean {
     if (answer.is_good) this.take(answer);
     return false;
   }
 
   private take(answer: PackAnswer): void {
+    this.number = answer.number ?? 0;
     const labels = new Map(this.store.value.labels);
     for (const [building, classes] of Object.entries(answer.labels)) labels.set(Number(building), classes);
     this.store.set({

@@ -5,17 +5,33 @@ import {
 } from './source';
 import {words} from './strings';
 
+const kAskedAgain = new Set(['state', 'geometry', 'surfaces', 'pack', 'language', 'search', 'truth', 'disk']);
+
 export class ServerSource implements Source {
   readonly can = {edit: true, explain: true, search: true, scale: true, truth: true};
 
   constructor(private readonly token: string) {}
 
+  private request(verb: string, body: object): Promise<Response> {
+    return fetch(`/api/${verb}`, {
+      method: 'POST', headers: {'Content-Type': 'application/json', 'X-Oriel-Token': this.token}, body: JSON.stringify(body)
+    });
+  }
+
+  /** A question that changes nothing is asked again: a worker that ended takes the questions at hand with it, and another follows. */
+  private async requestTwice(verb: string, body: object): Promise<Response> {
+    try {
+      return await this.request(verb, body);
+    } catch (error) {
+      if (!kAskedAgain.has(verb)) throw error;
+      return this.request(verb, body);
+    }
+  }
+
   private async post(verb: string, body: object): Promise<any> {
     let response: Response;
     try {
-      response = await fetch(`/api/${verb}`, {
-        method: 'POST', headers: {'Content-Type': 'application/json', 'X-Oriel-Token': this.token}, body: JSON.stringify(body)
-      });
+      response = await this.requestTwice(verb, body);
     } catch {
       throw new SourceError(words.source.gone, 0);
     }

@@ -61,11 +61,12 @@ export interface ConfusionCell {
 export interface RuleScore { rule: string; right: number; wrong: number; line: number }
 export interface Score { macro_f1: number; classes: ClassScore[]; confusion: ConfusionCell[]; rules: RuleScore[] }
 export interface PackAnswer {
-  version: number; is_good: boolean; findings: Finding[]; classes: ClassEntry[]; params: ParamEntry[];
+  /** Of the labels; the next question names it as `since`. None with errors. */
+  number?: number; version: number; is_good: boolean; findings: Finding[]; classes: ClassEntry[]; params: ParamEntry[];
   labels: Record<string, number[]>; changed: Change[]; changed_count: number; counts: {class: string; count: number}[];
   unknown: number; doubtful: Part[]; score: Score | null; ms: number;
 }
-export interface PackQuestion { text: string; version: number; params?: Record<string, string>; all?: boolean }
+export interface PackQuestion { text: string; version: number; params?: Record<string, string>; since: number }
 
 // ---- explain ----
 

@@ -57,10 +57,10 @@ StudioJson PackRunner::run(const RequestBody& body) {
   const std::size_t version =
       body.number("version", std::numeric_limits<std::size_t>::max(), "version");
   const auto assignments = body.assignments("params");
-  const bool wants_all = body.flag("all");
-  std::optional<std::size_t> since;
-  if (body.has("since"))
-    since = body.number("since", std::numeric_limits<std::size_t>::max(), "set of labels");
+  const std::uint64_t since =
+      body.has("since")
+          ? body.number("since", std::numeric_limits<std::size_t>::max(), "set of labels")
+          : 0;
   const std::uint64_t ticket = ++newest_;
   const std::lock_guard lock(running_);
   if (newest_ > ticket) refuse_superseded();
@@ -80,10 +80,10 @@ StudioJson PackRunner::run(const RequestBody& body) {
     const auto before = last();
     const auto labelled = label(*rules, text, assignments, ticket);
     if (!labelled) refuse_superseded();
-    const std::uint64_t of_page = wants_all ? 0 : since.value_or(answered_);
-    answered_ = labelled->number;
-    answer["number"] = answered_;
-    add_labels(*labelled, {of_page, before.get()}, answer);
+    answer["number"] = labelled->number;
+    // A number that was not given here is of a worker before this one.
+    const std::uint64_t known = since <= labelled->number ? since : 0;
+    add_labels(*labelled, {known, before.get()}, answer);
   }
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   answer["ms"] = rounded(took.count(), 1);

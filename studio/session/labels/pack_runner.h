@@ -1,8 +1,8 @@
 #pragma once
 
 #include "oriel/editing.h"
-#include "studio/session/learning/correction_book.h"
 #include "studio/session/labels/labelled_buildings.h"
+#include "studio/session/learning/correction_book.h"
 #include "studio/session/pack_file.h"
 
 #include <atomic>
@@ -49,8 +49,6 @@ class PackRunner {
   /// Held while a pack is run.
   std::mutex running_;
   bool has_begun_ = false;
-  /// LabelledBuildings::number of the last answer.
-  std::uint64_t answered_ = 0;
   mutable std::mutex mutex_;
   std::shared_ptr<const LabelledBuildings> last_;
 };

@@ -27,7 +27,7 @@ std::size_t count_of(const json& answer, const std::string& name) {
 TEST_SUITE("studio/session") {
   TEST_CASE("a pack labels as label does") {
     StudioBench bench;
-    const json answer = bench.pack(bench.pack_text(), {{"all", true}});
+    const json answer = bench.pack(bench.pack_text(), {{"since", 0}});
     CHECK(answer["is_good"] == true);
     const auto rules = load_pack_file("residential");
     const json state = bench.ask("state", json::object());
@@ -58,7 +58,28 @@ TEST_SUITE("studio/session") {
     CHECK(second["score"] == first["score"]);
     CHECK(bench.pack(text, {{"since", first["number"]}})["labels"].empty());
     CHECK(bench.pack(text, {{"since", 0}})["labels"].size() == 2);
-    CHECK(bench.pack(text, {{"all", true}})["labels"] == first["labels"]);
+    CHECK(bench.pack(text, {{"since", 0}})["labels"] == first["labels"]);
+  }
+
+  TEST_CASE("a page gets what changed since its own answer whatever other pages asked") {
+    StudioBench bench;
+    const std::string text = bench.pack_text();
+    const json first = bench.pack(text);
+    std::string other = text;
+    const std::size_t at = other.find("widest_window:");
+    const std::size_t value = other.find("5 m", at);
+    REQUIRE(value != std::string::npos);
+    other.replace(value, 3, "3 m");
+    const json of_other_page = bench.pack(other);
+    const json later = bench.pack(other + "\n", {{"since", first["number"]}});
+    CHECK(later["labels"] == of_other_page["labels"]);
+  }
+
+  TEST_CASE("a page whose answer came from a worker before this one gets all labels") {
+    StudioBench bench;
+    const std::string text = bench.pack_text();
+    bench.pack(text);
+    CHECK(bench.pack(text, {{"since", 1000}})["labels"].size() == 2);
   }
 
   TEST_CASE("a changed rule lists the labels before and after") {
@@ -78,7 +99,7 @@ TEST_SUITE("studio/session") {
   TEST_CASE("a broken pack says what is wrong and keeps the labels") {
     StudioBench bench;
     const std::string text = bench.pack_text();
-    const json good = bench.pack(text, {{"all", true}});
+    const json good = bench.pack(text, {{"since", 0}});
     const json broken = bench.pack(replaced(text, "base_height", "base_hieght"));
     CHECK(broken["is_good"] == false);
     CHECK_FALSE(broken.contains("labels"));

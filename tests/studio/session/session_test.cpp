@@ -102,7 +102,7 @@ TEST_SUITE("studio/session") {
              {"pack", R"({"text": 3, "version": 1})", 400},
              {"pack", R"({"text": ""})", 400},
              {"pack", R"({"text": "", "version": 1, "params": {"a": 1}})", 400},
-             {"pack", R"({"text": "", "version": 1, "all": "yes"})", 400},
+             {"pack", R"({"text": "", "version": 1, "since": "yes"})", 400},
              {"search", R"({"text": ["x"]})", 400},
              {"truth", R"({"buildings": {}})", 400},
              {"correct", R"({"building": 0, "feature": 0})", 400},

@@ -66,7 +66,10 @@ class StudioBench {
   json pack(const std::string& text, json more = json::object()) {
     more["text"] = text;
     more["version"] = ++version_;
-    return ask("pack", more);
+    if (!more.contains("since")) more["since"] = number_;
+    json answer = ask("pack", more);
+    if (answer.contains("number")) number_ = answer["number"];
+    return answer;
   }
 
   /// The text of the pack that the session was opened with.
@@ -75,6 +78,8 @@ class StudioBench {
  private:
   studio::Session session_;
   int version_ = 0;
+  /// Of the answer before, as the page keeps it.
+  std::uint64_t number_ = 0;
 };
 
 /// A folder of its own for a test, gone in the end.
