@@ -80,6 +80,23 @@ struct LevelFromFiles {
 /// The levels and the log of the series NAME, as at() finds them. Throws InputError as at() does.
 std::vector<std::string> files_of_series(const std::string& name);
 
+/// What a check of a stored series found.
+struct SeriesCheck {
+  /// False: the levels and the log are not one series, and `issues` says where.
+  bool holds = false;
+  std::vector<double> scales;  ///< of the stored levels, ascending
+  std::size_t buildings = 0;   ///< with operations
+  std::size_t operations = 0;
+  /// Also warnings: E133 a log without checks.
+  std::vector<Issue> issues;
+};
+
+/// Proves a stored series: all checks of the log hold, each level that it names is there with the
+/// hash that it names, there are no others, and of each building the operations lead from every
+/// level to the next coarser one and back, facet by facet. Throws InputError as at() does, E132
+/// also for a level that is gone.
+SeriesCheck check_series(const std::string& name);
+
 /// The level at 1 : scale of the series NAME, from its files NAME.1-N.city.json (of streams
 /// .city.jsonl) and NAME.oplog.jsonl: the stored level that is nearest, with the operations between
 /// carried out or undone. `sink` gets the text, record by record; if is_complete is false in the

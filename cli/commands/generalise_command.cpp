@@ -43,6 +43,7 @@ struct GeneraliseArguments : LabellingArguments {
   TargetArguments target;
   std::vector<std::string> series;
   std::string at;
+  bool checks_series = false;
   std::string explain;
   std::string metrics;
 };
@@ -293,16 +294,19 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
   return write_series(arguments, scales, profile.value, rules, report);
 }
 
-/// With --at the option --from names a series, else the format of the inputs.
+/// With --at or --check the option --from names a series, else the format of the inputs.
 void check_source(const GeneraliseArguments& arguments) {
-  if (!arguments.at.empty()) {
+  if (!arguments.at.empty() || arguments.checks_series) {
+    const std::string option = arguments.checks_series ? "--check" : "--at";
     if (!arguments.inputs.empty())
-      throw CLI::ValidationError("--at", "takes no input but the series that --from names");
+      throw CLI::ValidationError(option, "takes no input but the series that --from names");
     if (arguments.from.empty())
-      throw CLI::ValidationError("--at", "needs --from NAME, the -o of the --series that was made");
+      throw CLI::ValidationError(option, "needs --from NAME, the -o of the --series that was made");
     if (!arguments.selection.is_all())
       throw CLI::ValidationError(
-          "--at", "writes the whole level, without --id, --bbox, --cotype, --random and --exclude");
+          option, "takes the whole level, without --id, --bbox, --cotype, --random and --exclude");
+    if (arguments.checks_series && !arguments.out.empty())
+      throw CLI::ValidationError(option, "writes nothing, so it takes no -o");
     return;
   }
   if (arguments.inputs.empty()) throw CLI::RequiredError("input");
@@ -312,6 +316,11 @@ void check_source(const GeneraliseArguments& arguments) {
 
 ExitCode work(GeneraliseArguments& arguments) {
   arguments.only_names_surfaces = true;
+  if (arguments.checks_series) {
+    check_source(arguments);
+    Report report(arguments.is_verbose);
+    return check_stored_series(arguments.from, report);
+  }
   if (arguments.out.empty()) {
     if (!arguments.is_piped_stream() || !arguments.series.empty())
       throw CLI::RequiredError("--output");
@@ -350,7 +359,7 @@ void add_generalise(CLI::App& app, Action& action) {
   command->get_option("input")->required(false);
   CLI::Option* from = command->get_option("--from");
   from->get_validator(0)->active(false);
-  from->description(from->get_description() + "; with --at, the NAME of a series");
+  from->description(from->get_description() + "; with --at or --check, the NAME of a series");
   CLI::Option_group* target = command->add_option_group("Target");
   const CLI::Option* scale =
       target->add_option("--scale", arguments->target.scale, "Target scale, such as 1:2000");
@@ -369,6 +378,9 @@ void add_generalise(CLI::App& app, Action& action) {
   target->add_option(
       "--at", arguments->at,
       "Write the level at this scale from the stored series --from NAME; takes no input");
+  target->add_flag("--check", arguments->checks_series,
+                   "Prove the stored series --from NAME: log and levels are what was written, and "
+                   "the operations lead from each level to the next and back");
   target->require_option(0, 1);
   command->add_option("--explain", arguments->explain,
                       "Write what was done to each feature, by which entry, and what was refused "
@@ -387,7 +399,7 @@ void add_generalise(CLI::App& app, Action& action) {
       "Example:\n  oriel generalise house.city.json --scale 1:20000 -o house-1-20000.city.json");
   command->callback([arguments, &action, target, scale] {
     if (target->count_all() == 0 && arguments->target.profile.empty())
-      throw CLI::RequiredError("[--scale,--to-lod,--series,--at]");
+      throw CLI::RequiredError("[--scale,--to-lod,--series,--at,--check]");
     arguments->target.has_scale = scale->count() > 0;
     action = [arguments] { return work(*arguments); };
   });

@@ -368,7 +368,9 @@ ExitCode write_series(const LabellingArguments& arguments, const std::vector<dou
   const ExitCode code = runner.run(command);
   report.add(report_untyped(command.drawn(), rules));
   runner.report_summary("drawn at " + counted(scales.size(), "scale"),
-                        {{"operation", command.operations()}}, " in the log");
+                        {{std::string(agreeing(command.operations(), "operation", "operations")),
+                          command.operations()}},
+                        " in the log");
   return code;
 }
 
@@ -385,6 +387,16 @@ ExitCode write_level_at(const std::string& name, double scale, const std::string
   if (!level.is_complete) return ExitCode::input;
   file().commit();
   run_log().info("1:{} from {}", scale, printable(level.from_file));
+  return ExitCode::clean;
+}
+
+ExitCode check_stored_series(const std::string& name, Report& report) {
+  const SeriesCheck check = check_series(name);
+  report.add(check.issues);
+  if (!check.holds) return ExitCode::input;
+  fmt::print("{}: {} and the log are one series: {} of {} lead from each to the next and back\n",
+             printable(name), counted(check.scales.size(), "level"),
+             counted(check.operations, "operation"), counted(check.buildings, "building"));
   return ExitCode::clean;
 }
 

@@ -22,4 +22,8 @@ ExitCode write_series(const LabellingArguments& arguments, const std::vector<dou
 ExitCode write_level_at(const std::string& name, double scale, const std::string& out,
                         Report& report);
 
+/// `generalise --check --from NAME`: proves a stored series (check_series()) and says what it has.
+/// InputError and exit codes as of write_level_at().
+ExitCode check_stored_series(const std::string& name, Report& report);
+
 }  // namespace oriel::cli

@@ -69,7 +69,7 @@ TEST_SUITE("cli") {
   TEST_CASE("missing arguments are named") {
     check_usage({"label"}, "input is required");
     check_usage({"generalise", sample("hip"), "-o", "-"},
-                "one of --scale, --to-lod, --series, --at is required");
+                "one of --scale, --to-lod, --series, --at, --check is required");
     check_usage({"generalise", sample("hip"), "--scale", "1:100"}, "--output is required");
     check_usage({"score", "parts.csv"}, "--truth is required");
     check_usage({"rules"}, "A subcommand is required");

@@ -3,6 +3,7 @@
 #include "tests/cli/json_lines.h"
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <sstream>
 #include <string>
@@ -389,6 +390,43 @@ TEST_SUITE("cli") {
     check_refused("s.1-500.city.json");
     folder.write("s.1-500.city.json", level);
     CHECK(at().exit == 0);
+  }
+
+  TEST_CASE("a stored series is proved by its log and its levels") {
+    const Folder folder;
+    REQUIRE(
+        run({"generalise", sample("house"), "--series", "1:500,1:2500,1:10000", "-o", folder / "s"})
+            .exit == 0);
+    const Words check{"generalise", "--check", "--from", folder / "s"};
+    const Outcome whole = run(check);
+    CHECK(whole.exit == 0);
+    CHECK(whole.out.find("3 levels and the log are one series") != std::string::npos);
+    CHECK(run({"generalise", "--check", "--from", folder / "s", "-o", "-"}).exit == 2);
+    CHECK(run({"generalise", "--check"}).exit == 2);
+    CHECK(run({"generalise", sample("house"), "--check", "--from", folder / "s"}).exit == 2);
+    const std::string level = bytes_of(folder / "s.1-2500.city.json");
+    std::filesystem::remove(folder / "s.1-2500.city.json");
+    const Outcome gone = run(check);
+    CHECK(gone.exit == 5);
+    CHECK(gone.says("E132 was written with a level 1:2500, whose file is gone"));
+    // Without checks the operations alone tell that a level is of another building.
+    folder.write("s.1-2500.city.json", level);
+    folder.write("s.oplog.jsonl", without_checks(bytes_of(folder / "s.oplog.jsonl")));
+    CHECK(run(check).exit == 0);
+    std::string moved = level;
+    ++moved[moved.find_first_of("12345678", moved.find("\"vertices\""))];
+    folder.write("s.1-2500.city.json", moved);
+    const Outcome other = run(check);
+    CHECK(other.exit == 5);
+    CHECK(other.says("G409 the log does not lead from the level 1:500 to 1:2500 and back"));
+  }
+
+  TEST_CASE("streams are proved record by record") {
+    const Folder folder;
+    const std::string lines = run({"cat", sample("block"), sample("row")}).out;
+    REQUIRE(run({"generalise", "-", "--series", "1:500,1:5000", "-o", folder / "s"}, {.in = lines})
+                .exit == 0);
+    CHECK(run({"generalise", "--check", "--from", folder / "s"}).exit == 0);
   }
 
   TEST_CASE("a log of a version without checks is read with a warning") {
