@@ -69,6 +69,24 @@ json with_neighbour() {
 }  // namespace
 
 TEST_SUITE("cli") {
+  TEST_CASE("level 3 of citygml keeps windows and doors, which make it level 3") {
+    const auto kept = [](const std::string& level) {
+      const Outcome made =
+          run({"generalise", sample("house"), "--profile", "citygml:" + level, "-o", "-"});
+      REQUIRE(made.exit == 0);
+      const json city = json::parse(made.out);
+      std::map<std::string, int> counts;
+      for (const json& surface :
+           city["CityObjects"]["house"]["geometry"][0]["semantics"]["surfaces"])
+        ++counts[surface["type"].get<std::string>()];
+      return counts;
+    };
+    auto three = kept("3"), two = kept("2");
+    CHECK(three["Window"] == 16);
+    CHECK(three["Door"] == 2);
+    CHECK(two["Window"] + two["Door"] == 0);
+  }
+
   TEST_CASE("levels of detail share a file and never stand twice in an object") {
     const Outcome first = run({"generalise", sample("house"), "--to-lod", "2.0,1.2", "-o", "-"});
     REQUIRE(first.exit == 0);
