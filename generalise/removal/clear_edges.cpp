@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,7 +24,6 @@ class EdgeClearer {
 
   Cleared run() {
     short_ = order_.short_edges_of(solid_);
-    if (!short_.empty() && validator_) fitness_ = validator_.fitness_of(solid_);
     while (clear_one()) {
     }
     return {std::move(solid_), std::move(left_)};
@@ -82,8 +82,10 @@ class EdgeClearer {
     if (validator_.violation_of)
       if (const auto violation = validator_.violation_of(*dropped.solid))
         return violation->sentence;
+    // The solid as it is now is judged only where that decides.
+    if (!fitness_) fitness_ = validator_.fitness_of(solid_);
     const Fitness fitness = validator_.fitness_of(*dropped.solid);
-    if (fitness < fitness_) return "the building would not be valid";
+    if (fitness < *fitness_) return "the building would not be valid";
     fitness_ = fitness;
     solid_ = std::move(*dropped.solid);
     short_ = std::move(left);
@@ -93,7 +95,7 @@ class EdgeClearer {
   Solid solid_;
   const ClearOrder& order_;
   const SolidValidator& validator_;
-  Fitness fitness_ = Fitness::unfit;
+  std::optional<Fitness> fitness_;  ///< of solid_
   std::vector<ShortEdge> short_;
   std::vector<UnclearedEdge> left_;
 };
