@@ -358,20 +358,15 @@ class TrianglePlane {
     return std::abs(height) > reach + kError * error;
   }
 
-  /// The same of a triangle.
-  [[nodiscard]] bool is_beside(const MicrometreTriangle& triangle) const {
-    int before = 0, behind = 0;
-    for (const MicrometrePoint& p : triangle) {
-      double height = 0, error = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double off = static_cast<double>(p[i]) - point_[i];
-        height += normal_[i] * off;
-        error += size_[i] * std::abs(off);
-      }
-      before += height > kError * error ? 1 : 0;
-      behind += height < -kError * error ? 1 : 0;
+  /// 1 before the plane, -1 behind it, for certain; 0: on it, or too near to tell.
+  [[nodiscard]] int side_of(const MicrometrePoint& p) const {
+    double height = 0, error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double off = static_cast<double>(p[i]) - point_[i];
+      height += normal_[i] * off;
+      error += size_[i] * std::abs(off);
     }
-    return before == 3 || behind == 3;
+    return height > kError * error ? 1 : height < -kError * error ? -1 : 0;
   }
 
  private:
@@ -380,7 +375,21 @@ class TrianglePlane {
   std::array<double, 3> point_{}, normal_{}, size_{};
 };
 
-/// Of more triangles it is asked first, in doubles, whether they lie beside each other's planes.
+/// All corners of `other` but those of `own`, whose plane this is, are on one side of it for
+/// certain: the triangles have no more in common than those corners.
+bool is_beside(const SnappedBuilding& building, const TrianglePlane& plane,
+               const TriangleCorners& own, const TriangleCorners& other) {
+  int side = 0;
+  for (const int corner : other) {
+    if (std::ranges::find(own, corner) != own.end()) continue;
+    const int its = plane.side_of(building.point(corner));
+    if (its == 0 || its == -side) return false;
+    side = its;
+  }
+  return side != 0;
+}
+
+/// Of more triangles the tree is asked, too, what lies beside their planes.
 constexpr std::size_t kFewTriangles = 4096;
 
 /// For each polygon of a shell one that it meets elsewhere than in common vertices and edges, if
@@ -400,20 +409,21 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
   std::vector<std::size_t> later;  // whose boxes overlap that of triangle i
   std::vector<TrianglePlane> planes;
   const bool are_many = triangles.size() > kFewTriangles;
-  for (std::size_t i = 0; are_many && i < triangles.size(); ++i)
-    planes.emplace_back(points_of(building, triangles[i].corners));
+  for (const ShellTriangle& triangle : triangles)
+    planes.emplace_back(points_of(building, triangle.corners));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     later.clear();
     std::int64_t looked_at = 0;
     const std::size_t p = triangles[i].polygon;
-    const MicrometreTriangle mine = points_of(building, triangles[i].corners);
+    const TriangleCorners& mine = triangles[i].corners;
     if (are_many)
       tree.search(
           [&](const Box& box) { return overlap(box, boxes[i]) && !planes[i].is_beside(box); },
           [&](int number) {
             looked_at += 1;
             const std::size_t j = at(number);
-            if (j > i && triangles[j].polygon != p && !planes[j].is_beside(mine))
+            if (j > i && triangles[j].polygon != p &&
+                !is_beside(building, planes[j], triangles[j].corners, mine))
               later.push_back(j);
           });
     else
@@ -426,7 +436,10 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
     for (const std::size_t j : later) {
       const std::size_t q = triangles[j].polygon;
       if (p == q || (crossed_by[p] && crossed_by[q])) continue;
-      if (!intersect(building, triangles[i].corners, triangles[j].corners)) continue;
+      const TriangleCorners& other = triangles[j].corners;
+      if (is_beside(building, planes[i], mine, other) ||
+          is_beside(building, planes[j], other, mine) || !intersect(building, mine, other))
+        continue;
       if (!crossed_by[p]) crossed_by[p] = q;
       if (!crossed_by[q]) crossed_by[q] = p;
     }
