@@ -23,13 +23,20 @@ bool has_doubtful_vertices(const Building& building) {
   return used(ValidateOptions{}.snap_m) != used(kSurelyApart_m);
 }
 
+/// It has two triangles at most, which validate() has compared.
+bool is_soon_judged(const detail::SnappedPolygon& polygon) {
+  constexpr std::size_t kCornersOfTwo = 4;
+  return polygon.rings.size() == 1 && polygon.rings[0].size() <= kCornersOfTwo;
+}
+
 /// Where polygons, which validate() found good, are folded between any two of their triangles.
 std::vector<Finding> folds_in(const Building& building) {
   const auto judged = detail::snapped(building, ValidateOptions{}.snap_m);
   if (!judged) return {};
   detail::FindingList findings(*judged);
   for (const detail::SnappedPolygon& polygon : judged->polygons)
-    detail::judge(*judged, polygon, {}, findings, detail::FoldsBetween::any_two);
+    if (!is_soon_judged(polygon))
+      detail::judge(*judged, polygon, {}, findings, detail::FoldsBetween::any_two);
   return findings.take();
 }
 
