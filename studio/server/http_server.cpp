@@ -23,6 +23,7 @@ constexpr std::size_t kThreads = 32;
 
 // With the character set these are none of the types that cpp-httplib would compress.
 constexpr const char* kJson = "application/json; charset=utf-8";
+constexpr const char* kBytes = "application/octet-stream";
 
 constexpr std::string_view kMissingPage =
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>oriel studio</title>"
@@ -85,8 +86,9 @@ RequestHead head_of(const httplib::Request& request) {
 
 void set(httplib::Response& response, Reply reply) {
   response.status = reply.status;
-  response.body = std::move(reply.json);
-  response.set_header("Content-Type", kJson);
+  const bool is_json = reply.bytes.empty();
+  response.body = std::move(is_json ? reply.json : reply.bytes);
+  response.set_header("Content-Type", is_json ? kJson : kBytes);
 }
 
 /// What is written by a provider is not compressed.

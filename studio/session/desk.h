@@ -11,6 +11,7 @@
 #include "studio/session/session.h"
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -52,7 +53,9 @@ FeatureId asked_feature(const RequestBody& body, const OpenBuilding& building);
 
 /// The verbs: each takes a request and gives its answer, or throws RefusedRequest.
 StudioJson answer_state(Desk& desk, const RequestBody& body);
-StudioJson answer_geometry(Desk& desk, const RequestBody& body);
+/// Bytes instead of JSON (building_bytes).
+std::string geometry_bytes(Desk& desk, const RequestBody& body);
+StudioJson answer_features(Desk& desk, const RequestBody& body);
 StudioJson answer_surfaces(Desk& desk, const RequestBody& body);
 StudioJson answer_explain(Desk& desk, const RequestBody& body);
 StudioJson answer_search(Desk& desk, const RequestBody& body);

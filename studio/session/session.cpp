@@ -23,7 +23,7 @@ const std::map<std::string_view, Verb>& verbs() {
       {"curve", answer_curve},
       {"disk", [](Desk& desk, const RequestBody&) { return desk.file.disk(); }},
       {"explain", answer_explain},
-      {"geometry", answer_geometry},
+      {"features", answer_features},
       {"learn", answer_learn},
       {"pack", [](Desk& desk, const RequestBody& body) { return desk.runner.run(body); }},
       {"save", [](Desk& desk, const RequestBody& body) { return desk.file.save(body); }},
@@ -68,8 +68,11 @@ Session::~Session() = default;
 Reply Session::answer(std::string_view verb, std::string_view body) {
   if (verb == "language") return answer_language(body, inside_->desk.file.name());
   const auto found = verbs().find(verb);
-  if (found == verbs().end()) return error_reply(404, fmt::format("there is no verb '{}'", verb));
+  const bool has_bytes = verb == "geometry";
+  if (found == verbs().end() && !has_bytes)
+    return error_reply(404, fmt::format("there is no verb '{}'", verb));
   try {
+    if (has_bytes) return {200, {}, geometry_bytes(inside_->desk, RequestBody(body))};
     return {200, dump(found->second(inside_->desk, RequestBody(body)))};
   } catch (const RefusedRequest& refused) {
     return reply_of(refused);

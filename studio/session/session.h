@@ -37,10 +37,12 @@ struct SessionOptions {
   WorkLog* work_log = nullptr;
 };
 
-/// What is said to a request: a status of HTTP, and JSON.
+/// What is said to a request: a status of HTTP, and JSON or bytes.
 struct Reply {
   int status = 200;
   std::string json;
+  /// Of a verb that gives bytes (studio/session/README.md); empty: `json` holds.
+  std::string bytes = {};
 };
 
 /// `{"error": sentence, "code": code}`, without an empty code.

@@ -1,8 +1,9 @@
 // The source of a page that `oriel view` has written: everything stands in the page (docs/formats.md), nothing can be asked for.
-import type {SceneBuilding} from './scene/building_scene';
+import {shapeOf} from './scene/shape';
+import {partByName} from './search/names';
 import {
-  SourceError, type BoxMm, type BuildingEntry, type BuildingGeometry, type ConditionRow, type ExplainAnswer, type Feature, type Issue,
-  type PackAnswer, type Polygon, type RuleReason, type SearchAnswer, type Source, type StateAnswer, type SurfacesAnswer, type Vec3
+  SourceError, type BoxMm, type BuildingEntry, type ConditionRow, type ExplainAnswer, type Feature, type Issue, type PackAnswer,
+  type RuleReason, type SearchAnswer, type Shape, type Source, type StateAnswer, type SurfacesAnswer, type Vec3
 } from './source';
 import {words} from './strings';
 
@@ -23,26 +24,27 @@ export interface FileData {
 
 export class FileSource implements Source {
   readonly can = {edit: false, explain: true, search: true, scale: false, truth: false};
+  onRestart = null;
   /** The features of the second model that the first does not have follow those of the first. */
-  private readonly features: FileFeature[][];
+  private readonly features_: FileFeature[][];
   private readonly before: FileBuilding[];
   private readonly places = new Map<string, number>();
 
   constructor(private readonly data: FileData) {
     this.before = data.models[0]?.buildings ?? [];
-    this.features = this.before.map(building => [...building.features]);
+    this.features_ = this.before.map(building => [...building.features]);
     this.before.forEach(({id}, number) => this.places.set(id, number));
   }
 
   get hasAfter(): boolean { return this.data.models.length > 1; }
 
   /** The buildings of the second model, their features numbered as in the first, and their labels. */
-  after(): {buildings: SceneBuilding[]; labels: Map<number, number[]>} {
+  after(): {buildings: Shape[]; labels: Map<number, number[]>} {
     const labels = new Map<number, number[]>();
-    const buildings = (this.data.models[1]?.buildings ?? []).flatMap((building): SceneBuilding[] => {
+    const buildings = (this.data.models[1]?.buildings ?? []).flatMap((building): Shape[] => {
       const number = this.places.get(building.id);
       if (number === undefined) return [];
-      const known = this.features[number]!;
+      const known = this.features_[number]!;
       const place = new Map(known.map(({id}, i) => [id, i]));
       const own = known.map(({label}) => this.classOf(label));
       const numbers = building.features.map(feature => {
@@ -51,8 +53,8 @@ export class FileSource implements Source {
         return at;
       });
       labels.set(number, own);
-      return [{number, vertices_mm: building.vertices_mm, storeys_mm: building.storeys_mm,
-        polygons: building.polygons.map(({rings, owners, surface}) => ({rings, owners: owners.map(f => numbers[f]!), surface}))}];
+      const polygons = building.polygons.map(({rings, owners, surface}) => ({rings, owners: owners.map(f => numbers[f]!), surface}));
+      return [shapeOf(number, building.vertices_mm, polygons, building.storeys_mm)];
     });
     return {buildings, labels};
   }
@@ -66,17 +68,15 @@ export class FileSource implements Source {
     };
   }
 
-  async geometry(buildings: number[]): Promise<{buildings: BuildingGeometry[]}> {
-    return {buildings: buildings.map(number => {
-      const building = this.before[number]!;
-      return {
-        number, id: building.id, vertices_mm: building.vertices_mm, storeys_mm: building.storeys_mm,
-        polygons: building.polygons.map(({source, rings, owners, surface}): Polygon => ({source, rings, owners, surface})),
-        features: this.features[number]!.map((feature, i): Feature => ({
-          id: feature.id, name: feature.name, kind: feature.kind, parent: feature.parent, box_mm: boxOf(building, i)
-        }))
-      };
-    })};
+  async geometry(buildings: number[]): Promise<Shape[]> {
+    return buildings.map(number => {
+      const {vertices_mm, storeys_mm, polygons} = this.before[number]!;
+      return shapeOf(number, vertices_mm, polygons, storeys_mm);
+    });
+  }
+
+  async features(buildings: number[]): Promise<{buildings: {number: number; features: Feature[]}[]}> {
+    return {buildings: buildings.map(number => ({number, features: this.features_[number]!.map(({id, name, kind, parent}) => ({id, name, kind, parent}))}))};
   }
 
   async surfaces(building: number): Promise<SurfacesAnswer> {
@@ -96,7 +96,7 @@ export class FileSource implements Source {
   }
 
   async explain(building: number, feature: number): Promise<ExplainAnswer> {
-    const found = this.features[building]?.[feature];
+    const found = this.features_[building]?.[feature];
     if (!found) throw new SourceError(words.explain.nothing, 404);
     const rules = found.rules.map(rows => this.reasonOf(rows));
     rules.sort((a, b) => Number(b.rule === found.rule) - Number(a.rule === found.rule) || Number(b.holds) - Number(a.holds));
@@ -107,11 +107,12 @@ export class FileSource implements Source {
     };
   }
 
-  /** Only rules are found by the source here: ids, names and labels are found by the page itself. */
+  /** Ids and names of features, else rules; buildings and labels are found by the page itself. */
   async search(text: string): Promise<SearchAnswer> {
-    const parts = this.features.flatMap((features, building) =>
+    const named = partByName(this.features_, text);
+    const parts = named ? [named] : this.features_.flatMap((features, building) =>
       features.flatMap(({rule}, feature): [number, number][] => (rule !== '' && rule === text ? [[building, feature]] : [])));
-    return {parts, findings: []};
+    return {parts, buildings: [], findings: []};
   }
 
   /** -1 without a label. */
@@ -147,20 +148,19 @@ function scoreOf(mark: string): {score?: number | null; weight?: number} {
   return term ? {score: term[1] === '-' ? null : Number(term[1]), weight: Number(term[2])} : {};
 }
 
-function boxOf(building: FileBuilding, feature: number): BoxMm {
+function boxOf(building: FileBuilding): BoxMm {
   const box: BoxMm = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
   for (const polygon of building.polygons)
-    if (feature < 0 || polygon.owners.includes(feature))
-      for (const v of polygon.rings[0] ?? [])
-        for (let k = 0; k < 3; ++k) {
-          box[k] = Math.min(box[k]!, building.vertices_mm[3 * v + k]!);
-          box[3 + k] = Math.max(box[3 + k]!, building.vertices_mm[3 * v + k]!);
-        }
+    for (const v of polygon.rings[0] ?? [])
+      for (let k = 0; k < 3; ++k) {
+        box[k] = Math.min(box[k]!, building.vertices_mm[3 * v + k]!);
+        box[3 + k] = Math.max(box[3 + k]!, building.vertices_mm[3 * v + k]!);
+      }
   return box[0] <= box[3] ? box : [0, 0, 0, 0, 0, 0];
 }
 
 function entryOf(building: FileBuilding): BuildingEntry {
-  const box = boxOf(building, -1).map(mm => mm / 1000);
+  const box = boxOf(building).map(mm => mm / 1000);
   return {
     id: building.id, file: '', features: building.features.length, at_m: box.slice(0, 3) as Vec3,
     size_m: [0, 1, 2].map(k => box[3 + k]! - box[k]!) as Vec3, issues: building.issues, is_loaded: true, is_open: false

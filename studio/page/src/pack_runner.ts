@@ -8,7 +8,8 @@ export class PackRunner {
   /** Of the labels that are at hand; 0: none. */
   private number = 0;
 
-  constructor(private readonly source: Source, private readonly store: Store) {}
+  /** `onLabels` hears of which buildings other labels have come. */
+  constructor(private readonly source: Source, private readonly store: Store, private readonly onLabels: (buildings: number[]) => void) {}
 
   /** True when the answer was taken; false when a newer text has overtaken it. Throws what the source throws otherwise. */
   async run(text: string, params?: Record<string, string>, all = false): Promise<boolean> {
@@ -36,6 +37,7 @@ export class PackRunner {
     this.number = answer.number ?? 0;
     const labels = new Map(this.store.value.labels);
     for (const [building, classes] of Object.entries(answer.labels)) labels.set(Number(building), classes);
+    this.onLabels(Object.keys(answer.labels).map(Number));
     this.store.set({
       labels, classes: answer.classes, params: answer.params, counts: answer.counts, unknown: answer.unknown,
       doubtful: answer.doubtful, score: answer.score

@@ -28,15 +28,17 @@ export interface StateAnswer {
   corrections: string; scales: number[]; lods: string[]; loading: {done: number; all: number};
 }
 
-export interface Polygon {
-  source: number; rings: number[][]; owners: number[];
-  /** WallSurface, RoofSurface …, where the source knows it beforehand. */
-  surface?: string;
+/** The polygons of a building in flat lists (scene/shape.ts reads them). Vertex v lies at base_mm + vertices_mm[3 v, 3 v + 1, 3 v + 2]. */
+export interface Shape {
+  number: number; base_mm: Vec3; vertices_mm: ArrayLike<number>; storeys_mm: number[];
+  /** For each polygon the end of its rings in corner_ends, and of its owners in owners; for each ring the end of its corners. */
+  ring_ends: ArrayLike<number>; owner_ends: ArrayLike<number>; corner_ends: ArrayLike<number>;
+  /** Vertices; features, of each polygon the smallest first. */
+  corners: ArrayLike<number>; owners: ArrayLike<number>;
+  /** WallSurface, RoofSurface … by polygon, where the source knows it beforehand. */
+  surfaces?: string[];
 }
-export interface Feature { id: string; name: string; kind: string; parent: number; box_mm: BoxMm }
-export interface BuildingGeometry {
-  number: number; id: string; vertices_mm: number[]; polygons: Polygon[]; features: Feature[]; storeys_mm: number[];
-}
+export interface Feature { id: string; name: string; kind: string; parent: number }
 export interface SurfacesAnswer { types: string[]; why: string[] }
 
 // ---- pack ----
@@ -115,7 +117,7 @@ export interface FixesAnswer { fixes: Fix[] }
 // ---- curve, search, corrections, ask, learn ----
 
 export interface CurveAnswer { values: number[]; f1: number[]; at: number }
-export interface SearchAnswer { parts: Part[]; findings: Finding[] }
+export interface SearchAnswer { parts: Part[]; buildings: number[]; findings: Finding[] }
 export interface CorrectQuestion { building: number; feature: number; class: string | null; by?: string; why?: string }
 export interface CorrectionsAnswer { path: string; list: Correction[] }
 export interface AskAnswer { parts: {building: number; feature: number; sentence: string}[] }
@@ -144,17 +146,22 @@ export interface TruthAnswer { objects: TruthObject[] }
 export class SourceError extends Error {
   constructor(message: string, readonly status: number, readonly body: Record<string, unknown> = {}) { super(message); }
   get isSuperseded(): boolean { return this.body['superseded'] === true; }
+  /** The program ended at the question and was started again: nothing was done. */
+  get isRestarted(): boolean { return this.body['restarted'] === true; }
 }
 
 /** One method a verb. What a source cannot do throws SourceError with status 501; `can` says so beforehand. */
 export interface Source {
   readonly can: {edit: boolean; explain: boolean; search: boolean; scale: boolean; truth: boolean};
   state(): Promise<StateAnswer>;
-  geometry(buildings: number[]): Promise<{buildings: BuildingGeometry[]}>;
+  geometry(buildings: number[]): Promise<Shape[]>;
+  features(buildings: number[]): Promise<{buildings: {number: number; features: Feature[]}[]}>;
   surfaces(building: number): Promise<SurfacesAnswer>;
   pack(question: PackQuestion): Promise<PackAnswer>;
+  /** Called when the program behind the source has been started again, and reads the buildings anew. */
+  onRestart: (() => void) | null;
   /** `quick`: without the flip, which may take seconds. */
-  explain(building: number, feature: number, quick?: boolean): Promise<ExplainAnswer>;
+  explain(building: number, feature: number, quick?: boolean, signal?: AbortSignal): Promise<ExplainAnswer>;
   language(question: LanguageQuestion & {verb: 'complete'}): Promise<CompleteAnswer>;
   language(question: LanguageQuestion & {verb: 'hover'}): Promise<HoverAnswer | null>;
   language(question: LanguageQuestion & {verb: 'definition'}): Promise<DefinitionAnswer | null>;
@@ -168,7 +175,7 @@ export interface Source {
   corrections(): Promise<CorrectionsAnswer>;
   ask(count: number): Promise<AskAnswer>;
   learn(question: LearnQuestion): Promise<LearnAnswer>;
-  scale(question: ScaleQuestion): Promise<ScaleAnswer>;
+  scale(question: ScaleQuestion, signal?: AbortSignal): Promise<ScaleAnswer>;
   save(question: SaveQuestion): Promise<SaveAnswer>;
   disk(): Promise<DiskAnswer>;
   truth(buildings: number[]): Promise<TruthAnswer>;

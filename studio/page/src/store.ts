@@ -1,7 +1,7 @@
 // What the page knows, in one place. Parts of the page read `store.value`, change it by `set`, and are called when a field that
 // they watch has changed. Changes of one turn of the event loop come as one call.
 import type {
-  BuildingEntry, BuildingGeometry, Change, ClassEntry, Finding, ParamEntry, PackInfo, Part, Score, TruthObject, Vec3
+  BuildingEntry, Change, ClassEntry, Feature, Finding, ParamEntry, PackInfo, Part, Score, Shape, TruthObject, Vec3
 } from './source';
 
 /** What is chosen: a feature, a surface (the index of a polygon of the building), or a whole building. */
@@ -22,8 +22,10 @@ export interface Values {
   corrections: string;
   scales: number[];
   lods: string[];
-  /** Geometry that has come, by the building's number. The map is replaced when one comes. */
-  geometry: ReadonlyMap<number, BuildingGeometry>;
+  /** Geometry that is at hand, by the building's number. The map is replaced when some comes or goes (loading/). */
+  geometry: ReadonlyMap<number, Shape>;
+  /** Names and kinds of features, by the building's number: those that were asked for (App.feature). */
+  features: ReadonlyMap<number, Feature[]>;
 
   /** The pack's text as it stands in the editor, and the version of the last answer to it. */
   text: string;
@@ -67,7 +69,7 @@ export interface Values {
 
 export const kInitial: Values = {
   program: '', pack: {name: '', path: null, text: '', hash: '', is_writable: false}, origin_m: [0, 0, 0], buildings: [],
-  loading: {done: 0, all: 0}, has_truth: false, corrections: '', scales: [], lods: [], geometry: new Map(),
+  loading: {done: 0, all: 0}, has_truth: false, corrections: '', scales: [], lods: [], geometry: new Map(), features: new Map(),
   text: '', version: 0, is_good: true, findings: [], classes: [], params: [], labels: new Map(), counts: [], unknown: 0,
   doubtful: [], score: null, changed: [], changed_count: 0, ms: 0,
   selection: null, found: [], found_title: '', hover: null, filter: {hidden: new Set()}, colours: 'colour', heat: 'unknown', truth: [],

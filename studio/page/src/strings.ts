@@ -5,6 +5,15 @@ const count = (n: number, one: string, many: string) => `${n.toLocaleString('en'
 export const words = {
   source: {
     gone: 'The studio does not answer. Is the program still running?',
+    restarted: (verb: string) => {
+      const again: Record<string, string> = {
+        save: 'The pack was not saved: save it again.', correct: 'The correction was not written: say again what the part is.',
+        learn: 'Nothing was learnt: start the search again.', scale: 'The building was not drawn: choose the scale again.',
+        explain: 'Choose the part again to see what would change its label.', ask: 'Ask again for the parts that are worth a look.'
+      };
+      return `The studio ended at this and was started again. ${again[verb] ?? 'Please try again.'}`;
+    },
+    back: 'The studio had a fault and was started again. It reads the buildings anew; the pack in the editor is as it was.',
     garbled: 'The studio gave an answer that the page does not understand.',
     refused: (status: number) => `The studio refused (${status}).`,
     lacks: 'This page is a file: the studio (oriel studio) can do that.'
@@ -93,6 +102,7 @@ export const words = {
     more: (n: number) => `and ${n.toLocaleString('en')} more`, attributes: (n: number) => `All ${n} measures`,
     found: (n: number) => count(n, 'part', 'parts'),
     senses: {hole: 'hole', protrusion: 'protrusion', cavity: 'cavity', imprint: 'panel'}, senseIs: (sense: string) => `is a ${sense}`,
+    flipSearch: 'Looking for the smallest change that would give another label …',
     mustBe: (sense: string) => `must be a ${sense}`, mustBeOneOf: (list: string[]) => `must be a ${list.join(' or a ')}`,
     scores: (score: number) => `scores ${score.toFixed(2)}`, andMore: (n: number) => `${n} more`, otherLabels: (n: number) => count(n, 'label is', 'labels are') + ' farther away',
     bySurfaceRule: (rule: string) => `The rule ${rule} says so.`, measures: 'Measures', rules: 'Rules in their order',
@@ -103,7 +113,8 @@ export const words = {
   },
   search: {
     title: 'Search', label: 'Search by id, name, label, rule or expression', placeholder: 'window, an id, width > 3 m',
-    found: (n: number, text: string) => `${count(n, 'part', 'parts')}: ${text}`, nothing: (text: string) => `Nothing is called '${text}'.`
+    found: (n: number, text: string) => `${count(n, 'part', 'parts')}: ${text}`, buildings: (n: number, text: string) => `${count(n, 'building', 'buildings')}: ${text}`,
+    nothing: (text: string) => `Nothing is called '${text}'.`
   },
   editor: {
     title: 'Pack',
@@ -194,7 +205,7 @@ export const words = {
   learn: {
     title: 'Learn', why: 'Searches the ranges of the params for values that fit the truth and the corrections better. You go on working meanwhile.',
     objective: 'For', macroF1: 'F1 of all classes', f1Of: (name: string) => `F1 of ${name}`, proposeRules: 'list changes of rules, too',
-    start: 'Learn', stop: 'Stop', progress: 'How far the search is', running: 'Searching …', stopped: 'Stopped.', failed: 'Nothing could be learnt.',
+    start: 'Learn', stop: 'Stop', progress: 'How far the search is', running: 'Searching …', stopped: 'Stopped.', lost: 'The studio was started again and the search is lost. Learn again.', failed: 'Nothing could be learnt.',
     done: 'This is the proposal. Leave out what you do not believe.', nothing: 'The pack is as good as it gets within the ranges of its params.',
     report: 'Report', rules: 'Changes of rules that would pay',
     gain: (all: number, heldOut: number) => `F1 +${all.toFixed(3)}, +${heldOut.toFixed(3)} on buildings held out`,
@@ -205,6 +216,9 @@ export const words = {
     title: 'Scale', slider: 'Scale of the map', lods: 'Levels of detail', original: 'As it is', generalised: 'Generalised', beside: 'Beside the original',
     hint: 'Move the slider to see the building as a map of that scale has it, by the entries of generalise: in the pack.',
     polygons: (before: number, after: number) => `${before.toLocaleString('en')} → ${count(after, 'polygon', 'polygons')}`,
+    drawing: (name: string, stop: string) => `Drawing ${name} at ${stop} …`, seconds: (s: number) => `${s < 10 ? s.toFixed(1) : Math.round(s)} s`,
+    cancel: 'Cancel', cancelHint: 'Keep the picture as it is (Esc)', cancelled: 'Cancelled. The picture is as it was.',
+    long: 'A large building takes up to a minute the first time. You can go on working, or choose another scale.',
     valid: 'A valid solid.', invalid: 'Not a valid solid.', kept: 'kept', nothing: 'Nothing had to be done.'
   }
 };

@@ -1,7 +1,9 @@
 // The page as a whole: builds the shell with its panels, asks the source for what there is, and keeps the store.
 import type {App, Panel} from './app';
-import {SourceError, type Part, type Source} from './source';
+import {SourceError, type Feature, type Part, type Source} from './source';
 import type {Selection, Store} from './store';
+import {FeatureNames} from './loading/feature_names';
+import {ShapeLoader} from './loading/shape_loader';
 import {PackRunner} from './pack_runner';
 import {Shell} from './shell/shell';
 import {watchTheme} from './shell/theme';
@@ -15,10 +17,6 @@ import {searchBox} from './search/search';
 import {words} from './strings';
 
 const kPollMs = 400;
-/** Buildings asked for at once: an answer of some megabytes. */
-const kGeometryBatch = 50;
-/** More buildings than these stand as boxes until they are chosen. */
-const kMostDrawn = 3000;
 
 export class Workbench implements App {
   readonly shell: Shell;
@@ -26,15 +24,19 @@ export class Workbench implements App {
   readonly packs: PackRunner;
   partTools?: App['partTools'] & {};
   private lineOpener: ((line: number) => void) | null = null;
-  private readonly asked = new Set<number>();
+  private readonly names: FeatureNames;
+  private readonly shapes: ShapeLoader;
+  private isFollowing = false;
 
   constructor(readonly source: Source, readonly store: Store, title: string) {
-    this.packs = new PackRunner(source, store);
+    this.names = new FeatureNames(source, store);
+    this.packs = new PackRunner(source, store, buildings => this.names.outdate(buildings));
     watchTheme(store);
     const root = document.getElementById('app');
     if (!root) throw new Error('the page has no #app');
     this.shell = new Shell(root, store, title);
     this.scene = new BuildingScene(this.shell.sceneHost);
+    this.shapes = new ShapeLoader(this, this.scene);
     bindScene(this.scene, this);
     this.shell.sceneHost.append(sceneTools(this, this.scene));
     this.shell.addSearch(searchBox(this));
@@ -47,9 +49,13 @@ export class Workbench implements App {
 
   async start(): Promise<void> {
     this.shell.settle();
+    this.source.onRestart = () => {
+      this.store.say(words.source.back, true);
+      void this.followLoading();
+    };
     try {
       await this.readState(true);
-      await this.packs.run(this.store.value.text, undefined, true);
+      await Promise.all([this.shapes.first(), this.packs.run(this.store.value.text, undefined, true)]);
     } catch (error) {
       this.tell(error);
     }
@@ -60,18 +66,24 @@ export class Workbench implements App {
 
   /** Buildings that come in while the page is open are drawn and labelled. */
   private async followLoading(): Promise<void> {
-    let done = this.store.value.loading.done;
-    while (this.store.value.loading.done < this.store.value.loading.all) {
-      await new Promise(resolve => setTimeout(resolve, kPollMs));
+    if (this.isFollowing) return;
+    this.isFollowing = true;
+    let {done, all} = this.store.value.loading;
+    for (let isNew = true; isNew || done < all;) {
+      if (!isNew) await new Promise(resolve => setTimeout(resolve, kPollMs));
       try {
         await this.readState(false);
-        if (this.store.value.loading.done === done) continue;
-        done = this.store.value.loading.done;
-        await this.packs.run(this.store.value.text, undefined, true);
+        const {loading} = this.store.value;
+        if (loading.done !== done) await this.packs.run(this.store.value.text);
+        isNew = false;
+        ({done, all} = loading);
       } catch (error) {
         this.tell(error);
+        await new Promise(resolve => setTimeout(resolve, kPollMs));
+        if (error instanceof SourceError && error.status === 0) break;
       }
     }
+    this.isFollowing = false;
     if (!this.store.value.selection && this.store.value.found.length === 0 && !this.scene.camera.isMoved) this.scene.fly(null);
   }
 
@@ -86,22 +98,8 @@ export class Workbench implements App {
     void this.need([...new Set(parts.map(([building]) => building))]).then(() => this.scene.flyToParts(parts));
   }
 
-  async need(buildings: number[]): Promise<void> {
-    const missing = buildings.filter(number => !this.asked.has(number));
-    for (const number of missing) this.asked.add(number);
-    for (let i = 0; i < missing.length; i += kGeometryBatch) {
-      const batch = missing.slice(i, i + kGeometryBatch);
-      try {
-        const answer = await this.source.geometry(batch);
-        const geometry = new Map(this.store.value.geometry);
-        for (const building of answer.buildings) geometry.set(building.number, building);
-        this.store.set({geometry});
-      } catch (error) {
-        for (const number of batch) this.asked.delete(number);
-        this.tell(error);
-      }
-    }
-  }
+  need(buildings: number[]): Promise<void> { return this.shapes.need(buildings); }
+  feature(building: number, feature: number): Feature | undefined { return this.names.of(building, feature); }
 
   open(panel: string, onlyIfSeen = false): void { this.shell.open(panel, onlyIfSeen); }
   openLine(line: number): void { this.lineOpener?.(line); }
@@ -116,7 +114,6 @@ export class Workbench implements App {
       corrections: state.corrections, scales: state.scales, lods: state.lods,
       ...(isFirst ? {pack, text: pack.text} : {})
     });
-    await this.need(buildings.map((_, number) => number).filter(number => buildings[number]!.is_loaded).slice(0, kMostDrawn));
     if (isFirst) this.scene.fly(null);
   }
 

@@ -5,7 +5,7 @@
 #include "studio/session/geometry_json.h"
 #include "studio/session/labels/pack_answer.h"
 #include "studio/session/plain_sentence.h"
-#include "studio/session/storeys.h"
+#include "studio/session/verbs/building_bytes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,17 +58,7 @@ StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
   return entry;
 }
 
-StudioJson polygons_json(const OpenBuilding& open) {
-  StudioJson list = StudioJson::array();
-  for (const Polygon& polygon : open.building->polygons)
-    list.push_back({{"source", polygon.source},
-                    {"rings", polygon.rings},
-                    {"owners", open.owners[static_cast<std::size_t>(polygon.source)]}});
-  return list;
-}
-
-StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* labelled,
-                         const Vec3& origin_m) {
+StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* labelled) {
   StudioJson list = StudioJson::array();
   const PipelineResult& result = open.segmented;
   if (!result.is_done()) return list;
@@ -79,16 +69,8 @@ StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* label
     list.push_back({{"id", open.features[i].id},
                     {"name", names[i]},
                     {"kind", kind_word(feature.sense)},
-                    {"parent", feature.parent.value},
-                    {"box_mm", box_mm_json(open.features[i].box, origin_m)}});
+                    {"parent", feature.parent.value}});
   }
-  return list;
-}
-
-StudioJson storeys_json(const OpenBuilding& open, const Vec3& origin_m) {
-  StudioJson list = StudioJson::array();
-  for (const double floor_m : storey_floors(*open.building, open.segmented))
-    list.push_back(whole_millimetres(floor_m + open.building->frame.origin_m.z - origin_m.z));
   return list;
 }
 
@@ -117,24 +99,24 @@ StudioJson answer_state(Desk& desk, const RequestBody& /*body*/) {
           {"loading", {{"done", loading.done}, {"all", loading.all}}}};
 }
 
-StudioJson answer_geometry(Desk& desk, const RequestBody& body) {
+std::string geometry_bytes(Desk& desk, const RequestBody& body) {
   const BuildingList list = desk.buildings.list();
-  const Vec3 origin_m = desk.buildings.origin_m();
+  std::vector<NumberedBuilding> loaded;
+  for (const std::size_t number : body.numbers("buildings", list.size(), "building"))
+    if (list[number]) loaded.push_back({number, list[number].get()});
+  return building_bytes(loaded, desk.buildings.origin_m());
+}
+
+StudioJson answer_features(Desk& desk, const RequestBody& body) {
+  const BuildingList list = desk.buildings.list();
   const auto labelled = desk.runner.current();
   StudioJson buildings = StudioJson::array();
   for (const std::size_t number : body.numbers("buildings", list.size(), "building")) {
     if (!list[number]) continue;
-    const OpenBuilding& open = *list[number];
     const LabelledFeatures* features = labelled && number < labelled->buildings.size()
                                            ? labelled->buildings[number].get()
                                            : nullptr;
-    buildings.push_back(
-        {{"number", number},
-         {"id", open.building->id},
-         {"vertices_mm", vertices_mm_json(open.building->vertices, open.building->frame, origin_m)},
-         {"polygons", polygons_json(open)},
-         {"features", features_json(open, features, origin_m)},
-         {"storeys_mm", storeys_json(open, origin_m)}});
+    buildings.push_back({{"number", number}, {"features", features_json(*list[number], features)}});
   }
   return {{"buildings", std::move(buildings)}};
 }

@@ -24,10 +24,11 @@ TEST_SUITE("studio/session") {
     const json by_name = bench.ask("search", {{"text", explained["name"]}});
     CHECK(std::find(by_name["parts"].begin(), by_name["parts"].end(), part) !=
           by_name["parts"].end());
-    const json geometry = bench.ask("geometry", {{"buildings", {0}}})["buildings"][0];
-    const json by_id = bench.ask("search", {{"text", geometry["features"][1]["id"]}});
+    const json named = bench.ask("features", {{"buildings", {0}}})["buildings"][0];
+    const json by_id = bench.ask("search", {{"text", named["features"][1]["id"]}});
     CHECK(by_id["parts"] == json::array({json::array({0, 1})}));
-    CHECK(bench.ask("search", {{"text", geometry["id"]}})["buildings"][0] == 0);
+    const json state = bench.ask("state", json::object());
+    CHECK(bench.ask("search", {{"text", state["buildings"][0]["id"]}})["buildings"][0] == 0);
   }
 
   TEST_CASE("a search by a condition finds the features of which it holds") {

@@ -1,5 +1,9 @@
+#include "tests/studio/session/building_of_bytes.h"
 #include "tests/studio/session/studio_bench.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -25,34 +29,72 @@ TEST_SUITE("studio/session") {
 
   TEST_CASE("geometry refers to vertices and features that are there") {
     StudioBench bench;
-    const json answer = bench.ask("geometry", {{"buildings", {0, 1}}});
-    REQUIRE(answer["buildings"].size() == 2);
-    for (const json& building : answer["buildings"]) {
-      const std::size_t vertices = building["vertices_mm"].size() / 3;
-      const std::size_t features = building["features"].size();
+    const auto buildings = read_bytes(bench.bytes("geometry", {{"buildings", {0, 1}}}));
+    const json named = bench.ask("features", {{"buildings", {0, 1}}})["buildings"];
+    REQUIRE(buildings.size() == 2);
+    for (std::size_t i = 0; i < buildings.size(); ++i) {
+      const BuildingOfBytes& building = buildings[i];
+      CHECK(building.head["number"] == i);
+      CHECK(named[i]["number"] == i);
+      for (const auto v : building.corners) CHECK(3 * v < building.vertices.size());
+      const json& features = named[i]["features"];
+      for (const auto owner : building.owners) CHECK(owner < features.size());
+      CHECK(building.ring_ends.back() == building.corner_ends.size());
+      CHECK(building.corner_ends.back() == building.corners.size());
+      CHECK(building.owner_ends.back() == building.owners.size());
+      for (const auto* ends : {&building.ring_ends, &building.corner_ends, &building.owner_ends})
+        CHECK(std::is_sorted(ends->begin(), ends->end()));
       std::set<std::string> names;
-      for (const json& polygon : building["polygons"]) {
-        for (const json& ring : polygon["rings"])
-          for (const json& v : ring) CHECK(v.get<std::size_t>() < vertices);
-        for (const json& owner : polygon["owners"]) CHECK(owner.get<std::size_t>() < features);
-      }
-      for (const json& feature : building["features"]) {
-        names.insert(feature["name"]);
-        CHECK(feature["box_mm"].size() == 6);
-        for (int axis = 0; axis < 3; ++axis)
-          CHECK(feature["box_mm"][axis] <= feature["box_mm"][axis + 3]);
-      }
-      CHECK(names.size() == features);
-      CHECK(std::is_sorted(building["storeys_mm"].begin(), building["storeys_mm"].end()));
-      CHECK_FALSE(building["storeys_mm"].empty());
+      for (const json& feature : features) names.insert(feature["name"]);
+      CHECK(names.size() == features.size());
+      const json& storeys = building.head["storeys_mm"];
+      CHECK(std::is_sorted(storeys.begin(), storeys.end()));
+      CHECK_FALSE(storeys.empty());
     }
+  }
+
+  TEST_CASE("geometry has the vertices of the file to the millimetre") {
+    StudioBench bench;
+    const json state = bench.ask("state", json::object());
+    for (const BuildingOfBytes& building :
+         read_bytes(bench.bytes("geometry", {{"buildings", {1, 0}}}))) {
+      const json& entry = state["buildings"][building.head["number"].get<std::size_t>()];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::uint32_t least = UINT32_MAX, most = 0;
+        for (std::size_t i = axis; i < building.vertices.size(); i += 3) {
+          least = std::min(least, building.vertices[i]);
+          most = std::max(most, building.vertices[i]);
+        }
+        CHECK(least == 0);
+        CHECK(building.head["base_mm"][axis].get<double>() / 1000 ==
+              doctest::Approx(entry["at_m"][axis].get<double>()).epsilon(1e-9));
+        CHECK(most / 1000.0 == doctest::Approx(entry["size_m"][axis].get<double>()).epsilon(1e-9));
+      }
+    }
+  }
+
+  TEST_CASE("a building longer than two bytes of millimetres has four bytes a number") {
+    const StudioFolder folder("long");
+    std::ifstream in(sample_file("house.stripped.city.json"));
+    json model = json::parse(in);
+    for (json& vertex : model["vertices"]) vertex[0] = 20 * vertex[0].get<int>();
+    folder.write("long.city.json", model.dump());
+    studio::SessionOptions options = sample_options();
+    options.files = {folder.file("long.city.json"), options.files[0]};
+    options.truth.clear();
+    StudioBench bench(options);
+    const auto buildings = read_bytes(bench.bytes("geometry", {{"buildings", {0, 1}}}));
+    CHECK(buildings[0].head["is_short"] == false);
+    CHECK(buildings[1].head["is_short"] == true);
+    CHECK(buildings[0].corners.size() == buildings[1].corners.size());
+    CHECK(*std::ranges::max_element(buildings[0].vertices) > UINT16_MAX);
   }
 
   TEST_CASE("surfaces have a type and a reason for every polygon") {
     StudioBench bench;
-    const json geometry = bench.ask("geometry", {{"buildings", {0}}});
+    const auto geometry = read_bytes(bench.bytes("geometry", {{"buildings", {0}}}));
     const json surfaces = bench.ask("surfaces", {{"building", 0}});
-    CHECK(surfaces["types"].size() == geometry["buildings"][0]["polygons"].size());
+    CHECK(surfaces["types"].size() == geometry[0].ring_ends.size());
     CHECK(surfaces["why"].size() == surfaces["types"].size());
     for (const json& type : surfaces["types"]) CHECK_FALSE(type.get<std::string>().empty());
   }
@@ -95,6 +137,8 @@ TEST_SUITE("studio/session") {
              {"geometry", R"({"buildings": [0.5]})", 400},
              {"geometry", R"({"buildings": ["__proto__"]})", 400},
              {"geometry", R"({"buildings": [1e300]})", 400},
+             {"features", "{}", 400},
+             {"features", R"({"buildings": [99]})", 400},
              {"explain", R"({"building": 0})", 400},
              {"explain", R"({"building": 0, "feature": 100000})", 400},
              {"explain", R"({"building": null, "feature": 0})", 400},

@@ -56,6 +56,14 @@ class StudioBench {
     return json::parse(reply.json);
   }
 
+  /// What a good request of a verb that gives bytes is answered.
+  std::string bytes(std::string_view verb, const json& body) {
+    studio::Reply reply = session_.answer(verb, body.dump());
+    REQUIRE_MESSAGE(reply.status == 200, verb, ": ", reply.json);
+    CHECK(reply.json.empty());
+    return std::move(reply.bytes);
+  }
+
   /// The status of one that is refused, and its sentence.
   std::pair<int, std::string> refusal(std::string_view verb, const std::string& body) {
     const studio::Reply reply = session_.answer(verb, body);

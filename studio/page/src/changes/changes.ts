@@ -25,6 +25,8 @@ class Changes {
   private savedText: string | null = null;
   private isSaveUnmarked = false;
 
+  private readonly fills = new WeakMap<HTMLElement, readonly Change[]>();
+
   constructor(private readonly app: App) {
     const author = authorOf(app);
     this.since.addEventListener('change', () => this.compare());
@@ -32,6 +34,7 @@ class Changes {
     author.watch(param => this.onText(param));
     author.loop.onAnswer(() => { this.markSave(); this.compare(); });
     app.store.watch(['labels'], () => this.onLabels());
+    app.store.watch(['features'], () => this.fillAgain());
   }
 
   /** A new burst of edits begins: what is on the screen now is "before". */
@@ -96,13 +99,24 @@ class Changes {
         el('span', {class: 'change-after'}, after), el('span', {class: 'tree-count number'}, String(parts.length))),
       el('button', {type: 'button', class: 'link', onclick: () => this.app.show(parts, title)}, words.changes.showAll), items);
     box.addEventListener('toggle', () => { if (box.open && items.childElementCount === 0) this.fill(items, group.changes); });
+    this.fills.set(items, group.changes);
     return box;
   }
 
+  /** Names have come. */
+  private fillAgain(): void {
+    for (const box of this.list.querySelectorAll('details[open]')) {
+      const items = box.querySelector<HTMLElement>('.change-items');
+      const changes = items && this.fills.get(items);
+      if (changes) this.fill(items, changes);
+    }
+  }
+
   private fill(items: HTMLElement, changes: readonly Change[]): void {
-    const {buildings, geometry} = this.app.store.value;
+    const {buildings} = this.app.store.value;
+    items.replaceChildren();
     for (const change of changes.slice(0, kListed)) {
-      const feature = geometry.get(change.building)?.features[change.feature];
+      const feature = this.app.feature(change.building, change.feature);
       const name = feature?.name || feature?.id || words.changes.part(change.feature);
       items.append(el('li', {}, el('button', {
         type: 'button', class: 'tree-row', onclick: () => this.app.select({building: change.building, feature: change.feature}, true)

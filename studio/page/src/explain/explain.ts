@@ -2,74 +2,119 @@
 import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
 import {looksOf, patchStyle} from '../scene/palette';
-import type {AttributeEntry, ConditionRow, ExplainAnswer, NearestMiss, Part, RelationEntry, RuleReason} from '../source';
+import {ownersOf as ownersOfPolygon} from '../scene/shape';
+import {SourceError, type AttributeEntry, type ConditionRow, type ExplainAnswer, type NearestMiss, type Part, type RelationEntry, type RuleReason} from '../source';
 import {labelOf, type Selection} from '../store';
 import {words} from '../strings';
 import {isCode, missesOf, plainWords, surfaceReason} from './plain_words';
 
-export function explainPanel(app: App): Panel {
-  const element = el('div', {class: 'panel explain'});
-  const head = el('div', {class: 'explain-head'});
-  const body = el('div', {class: 'explain-body', 'aria-live': 'polite'});
-  element.append(head, body);
-  let asked = 0;
-  let shown = '';
-  const show = async () => {
-    const {selection, found, found_title, version, geometry} = app.store.value;
+class Explanation {
+  readonly element = el('div', {class: 'panel explain'});
+  private readonly head = el('div', {class: 'explain-head'});
+  private readonly body = el('div', {class: 'explain-body', 'aria-live': 'polite'});
+  private shown = '';
+  private shownNames: unknown;
+  /** Ends what is still asked about the part that was chosen before. */
+  private asking = new AbortController();
+  /** What is said of the chosen part: made anew when names come. */
+  private content: () => HTMLElement[] = () => [];
+
+  constructor(private readonly app: App) {
+    this.element.append(this.head, this.body);
+    app.store.watch(['selection', 'version', 'found', 'found_title', 'geometry', 'features', 'labels'], () => void this.show());
+  }
+
+  private async show(): Promise<void> {
+    const {selection, found, found_title, version, geometry, features} = this.app.store.value;
     const key = JSON.stringify([selection, version, selection ? geometry.has(selection.building) : 0, found.length, found_title]);
-    if (key === shown) return;
-    shown = key;
-    const number = ++asked;
-    replace(head, ...headOf(app, selection));
-    if (!selection) return replace(body, ...(found.length > 0 ? foundList(app, found, found_title) : [el('p', {class: 'quiet'}, words.explain.nothing)]));
-    try {
-      const content = await contentOf(app, selection);
-      if (number !== asked) return;
-      replace(body, ...content);
-      if (selection.feature !== undefined) await showFlip(app, [selection.building, selection.feature], body, () => number === asked);
-    } catch (error) {
-      if (number === asked) replace(body, el('p', {class: 'grave'}, error instanceof Error ? error.message : words.source.garbled));
+    const names = selection ? features.get(selection.building) : features;
+    if (key === this.shown && names === this.shownNames) return;
+    const isOther = key !== this.shown;
+    this.shown = key;
+    this.shownNames = names;
+    replace(this.head, ...headOf(this.app, selection));
+    if (!isOther) return this.draw();
+    this.asking.abort();
+    const {signal} = this.asking = new AbortController();
+    if (!selection) {
+      this.content = () => (found.length > 0 ? foundList(this.app, found, found_title) : [el('p', {class: 'quiet'}, words.explain.nothing)]);
+      return this.draw();
     }
-  };
-  app.store.watch(['selection', 'version', 'found', 'found_title', 'geometry', 'labels'], () => void show());
-  return {id: 'explain', title: words.explain.title, element};
+    try {
+      const content = await contentOf(this.app, selection, signal);
+      if (signal.aborted) return;
+      this.content = content;
+      this.draw();
+      if (selection.feature !== undefined && this.app.source.can.edit) await this.addFlip([selection.building, selection.feature], signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      this.content = () => [el('p', {class: 'grave'}, error instanceof Error ? error.message : words.source.garbled)];
+      this.draw();
+    }
+  }
+
+  /** What would change the label takes time to find: it is searched for where somebody stays. */
+  private async addFlip(part: Part, signal: AbortSignal): Promise<void> {
+    await new Promise(done => setTimeout(done, kFlipPause_ms));
+    if (signal.aborted) return;
+    const without = this.content;
+    const put = (...children: HTMLElement[]) => {
+      const place = this.body.querySelector<HTMLElement>('#flip-place');
+      if (place) replace(place, ...children);
+    };
+    const slow = setTimeout(() => put(...toolsContent(this.app, part, null), el('p', {class: 'quiet small is-working', id: 'flip-search'}, words.explain.flipSearch)), kFlipSlow_ms);
+    const told = await this.app.source.explain(...part, false, signal).catch((error: unknown) => error).finally(() => clearTimeout(slow));
+    if (signal.aborted || this.content !== without) return;
+    if (told instanceof SourceError && told.isSuperseded) return put(...toolsContent(this.app, part, null));
+    const flip = () => (told instanceof Error ? [...toolsContent(this.app, part, null), el('p', {class: 'grave small'}, told.message)] :
+      flipContent(this.app, part, told as ExplainAnswer));
+    this.content = () => {
+      const elements = without();
+      const place = elements.find(({id}) => id === 'flip-place');
+      if (place) replace(place, ...flip());
+      return elements;
+    };
+    put(...flip());
+  }
+
+  private draw(): void { replace(this.body, ...this.content()); }
 }
 
-/** What would change the label takes time to find: it is searched for where somebody stays. */
-async function showFlip(app: App, part: Part, body: HTMLElement, isShown: () => boolean): Promise<void> {
-  if (!app.source.can.edit) return;
-  await new Promise(done => setTimeout(done, 300));
-  if (!isShown()) return;
-  const answer = await app.source.explain(...part);
-  const place = body.querySelector<HTMLElement>('#flip-place');
-  if (isShown() && place) replace(place, ...flipContent(app, part, answer));
-}
+const kFlipPause_ms = 300;
+const kFlipSlow_ms = 700;
+
+export function explainPanel(app: App): Panel { return {id: 'explain', title: words.explain.title, element: new Explanation(app).element}; }
 
 function flipContent(app: App, part: Part, answer: ExplainAnswer): HTMLElement[] {
-  const note = answer.flip ? el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line)) : null;
-  return [note, app.partTools?.(part, answer) ?? null].filter((child): child is HTMLElement => child !== null);
+  const note = answer.flip ? [el('p', {class: 'note', id: 'flip'}, answer.flip.sentence, ' ', lineLink(app, answer.flip.line))] : [];
+  return [...note, ...toolsContent(app, part, answer)];
 }
 
-async function contentOf(app: App, selection: Selection): Promise<HTMLElement[]> {
-  if (selection.feature !== undefined) {
-    const answer = await app.source.explain(selection.building, selection.feature, true);
-    return featureContent(app, [selection.building, selection.feature], answer);
+function toolsContent(app: App, part: Part, answer: ExplainAnswer | null): HTMLElement[] {
+  const tools = app.partTools?.(part, answer);
+  return tools ? [tools] : [];
+}
+
+async function contentOf(app: App, selection: Selection, signal: AbortSignal): Promise<() => HTMLElement[]> {
+  const {building, feature, polygon} = selection;
+  if (feature !== undefined) {
+    const answer = await app.source.explain(building, feature, true, signal);
+    return () => featureContent(app, [building, feature], answer);
   }
-  if (selection.polygon !== undefined) {
-    const {types, why} = await app.source.surfaces(selection.building);
-    return surfaceContent(types[selection.polygon] ?? '', why[selection.polygon] ?? '');
+  if (polygon !== undefined) {
+    const {types, why} = await app.source.surfaces(building);
+    return () => surfaceContent(types[polygon] ?? '', why[polygon] ?? '');
   }
-  return buildingContent(app, selection.building);
+  return () => buildingContent(app, building);
 }
 
 // ---- above: what lies in what ----
 
 function headOf(app: App, selection: Selection | null): HTMLElement[] {
   if (!selection) return [];
-  const {buildings, geometry, classes} = app.store.value;
+  const {buildings, classes} = app.store.value;
   const {building, polygon, feature} = selection;
-  const features = geometry.get(building)?.features ?? [];
-  const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? features[f]?.kind ?? words.scene.unknown;
+  const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? app.feature(building, f)?.kind ?? words.scene.unknown;
   const crumb = (text: string, chosen: Selection, isCurrent: boolean) => el('button', {type: 'button', class: 'crumb', 'aria-pressed': String(isCurrent),
     onclick: () => app.select(chosen)}, text);
   const owners = ownersOf(app, selection);
@@ -81,23 +126,22 @@ function headOf(app: App, selection: Selection | null): HTMLElement[] {
 
 /** The features around the chosen one, the largest first. */
 function ownersOf(app: App, {building, polygon, feature}: Selection): number[] {
-  const found = app.store.value.geometry.get(building);
-  if (!found) return [];
-  if (polygon !== undefined) return [...(found.polygons[polygon]?.owners ?? [])].reverse();
+  const shape = app.store.value.geometry.get(building);
+  if (polygon !== undefined) return shape ? ownersOfPolygon(shape, polygon).reverse() : [];
   if (feature === undefined) return [];
   const chain: number[] = [];
-  for (let f = feature; f >= 0 && chain.length < 8 && !chain.includes(f); f = found.features[f]?.parent ?? -1) chain.unshift(f);
+  for (let f = feature; f >= 0 && chain.length < 8 && !chain.includes(f); f = app.feature(building, f)?.parent ?? -1) chain.unshift(f);
   return chain;
 }
 
 // ---- a feature ----
 
 function featureContent(app: App, [building, feature]: Part, answer: ExplainAnswer): HTMLElement[] {
-  const {classes, geometry} = app.store.value;
+  const {classes} = app.store.value;
   const label = answer.label ?? words.scene.unknown;
   const number = classes.findIndex(({name}) => name === answer.label);
   const look = number >= 0 ? looksOf(classes, app.store.value.colours === 'pattern')[number]! : null;
-  const about = geometry.get(building)?.features[feature];
+  const about = app.feature(building, feature);
   const [first, ...rest] = splitSentence(answer.sentence, label);
   const content: (HTMLElement | null)[] = [
     el('h2', {id: 'chosen', class: 'verdict'}, look ? el('span', {class: 'patch', style: patchStyle(look)}) : null, el('span', {}, first!)),
@@ -192,9 +236,9 @@ function missElement(app: App, miss: NearestMiss): HTMLElement {
 }
 
 function relationElement(app: App, building: number, relation: RelationEntry): HTMLElement {
-  const {classes, geometry} = app.store.value;
+  const {classes} = app.store.value;
   const kShown = 12;
-  const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? geometry.get(building)?.features[f]?.kind ?? words.scene.unknown;
+  const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? app.feature(building, f)?.kind ?? words.scene.unknown;
   const only = () => app.store.set({relation: app.store.value.relation === relation.name ? null : relation.name, shows_relations: true});
   const button = el('button', {type: 'button', class: 'relation-name', title: relation.meaning ?? words.explain.onlyRelation, onclick: only}, relation.name.replaceAll('_', ' '));
   button.setAttribute('aria-pressed', String(app.store.value.relation === relation.name));
@@ -249,13 +293,13 @@ function buildingContent(app: App, building: number): HTMLElement[] {
 }
 
 function foundList(app: App, parts: Part[], title: string): HTMLElement[] {
-  const {classes, buildings, geometry} = app.store.value;
+  const {classes, buildings} = app.store.value;
   const kShown = 200;
   return [
     el('h2', {id: 'chosen'}, title), el('p', {class: 'quiet'}, words.explain.found(parts.length)),
     el('ul', {class: 'found-list'}, ...parts.slice(0, kShown).map(([building, feature]) => el('li', {}, el('button', {type: 'button', class: 'link',
       onclick: () => app.select({building, feature}, true)}, classes[labelOf(app.store.value, building, feature)]?.name ?? words.scene.unknown),
-      ' ', el('span', {class: 'quiet small'}, geometry.get(building)?.features[feature]?.name ?? '', buildings.length > 1 ? ` · ${buildings[building]?.id ?? ''}` : '')))),
+      ' ', el('span', {class: 'quiet small'}, app.feature(building, feature)?.name ?? '', buildings.length > 1 ? ` · ${buildings[building]?.id ?? ''}` : '')))),
     ...(parts.length > kShown ? [el('p', {class: 'quiet small'}, words.explain.more(parts.length - kShown))] : [])
   ];
 }

@@ -50,15 +50,21 @@ export class Saving {
     const question: SaveQuestion = {text, hash: this.author.savedHash, ...how};
     try {
       const answer = await this.app.source.save(question);
-      this.author.saved(text, answer.hash);
-      this.app.store.set({pack: {...this.app.store.value.pack, path: answer.path, hash: answer.hash, text, is_writable: true}});
-      this.hideBanner();
-      this.showDiff();
-      return words.save.done(answer.path);
+      return this.tookOver(text, answer.hash, answer.path);
     } catch (error) {
       if (!(error instanceof SourceError) || error.status !== 409 || typeof error.body['disk_text'] !== 'string') throw error;
+      // Asked twice, since the first answer was lost: it is written.
+      if (error.body['disk_text'] === text) return this.tookOver(text, String(error.body['disk_hash'] ?? ''), how.path ?? this.app.store.value.pack.path ?? '');
       return this.resolve(error.body['disk_text'], String(error.body['disk_hash'] ?? ''), how);
     }
+  }
+
+  private tookOver(text: string, hash: string, path: string): string {
+    this.author.saved(text, hash);
+    this.app.store.set({pack: {...this.app.store.value.pack, path, hash, text, is_writable: true}});
+    this.hideBanner();
+    this.showDiff();
+    return words.save.done(path);
   }
 
   /** Both texts side by side; the reader takes one, or makes one of the two. */

@@ -4,9 +4,11 @@ import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
 import {authorOf} from '../editor/author';
 import {Divider} from '../scene/divider';
-import type {ScaleAnswer} from '../source';
+import {shapeOf} from '../scene/shape';
+import {SourceError, type ScaleAnswer} from '../source';
 import {words} from '../strings';
 import {isOriginal, keyOf, questionOf, stopText, stopsOf, tickText, type Stop} from './stops';
+import {Waiting} from './waiting';
 
 /** The slider may pass over stops on its way. */
 const kPause_ms = 80;
@@ -26,14 +28,18 @@ class ScalePanel {
   private stops: Stop[] = [];
   private stop: Stop = {kind: 'scale', scale: 1};
   private building = 0;
+  /** What the picture shows: it stays until the next one is there, and what is cancelled leads back to it. */
+  private drawn: Stop = this.stop;
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private asked = 0;
+  private asking: AbortController | null = null;
+  private readonly waiting: Waiting;
 
   constructor(private readonly app: App) {
     this.slider.addEventListener('input', () => this.choose(this.stops[Number(this.slider.value)]!));
     this.beside.addEventListener('change', () => this.placeDivider());
+    this.waiting = new Waiting(app.scene.host, () => this.cancel());
     this.element = el('div', {class: 'panel scale'}, this.title,
-      el('div', {class: 'scale-choice'}, this.slider, this.ticks, this.lods), el('label', {class: 'check'}, this.beside, words.scale.beside), this.facts, this.outcomes);
+      el('div', {class: 'scale-choice'}, this.slider, this.ticks, this.lods), this.waiting.element, el('label', {class: 'check'}, this.beside, words.scale.beside), this.facts, this.outcomes);
     app.store.watch(['scales', 'lods'], () => this.fillStops());
     app.store.watch(['selection'], () => this.followSelection());
     authorOf(app).loop.onAnswer(() => { if (!isOriginal(this.stop) && app.store.value.is_good) this.askSoon(); });
@@ -88,7 +94,8 @@ class ScalePanel {
   }
 
   private showOriginal(): void {
-    ++this.asked;
+    this.endAsking();
+    this.drawn = this.stop;
     this.divider?.hide();
     this.say(null);
     replace(this.facts);
@@ -100,28 +107,51 @@ class ScalePanel {
     this.timer = setTimeout(() => void this.ask(), kPause_ms);
   }
 
+  private endAsking(): void {
+    clearTimeout(this.timer);
+    this.asking?.abort();
+    this.asking = null;
+    this.waiting.end();
+    this.element.removeAttribute('aria-busy');
+  }
+
+  /** Back to what the picture shows. */
+  private cancel(): void {
+    this.endAsking();
+    this.stop = this.drawn;
+    this.mark();
+    this.app.store.say(words.scale.cancelled);
+  }
+
   private async ask(): Promise<void> {
-    const number = ++this.asked;
+    this.endAsking();
+    const {signal} = this.asking = new AbortController();
+    const stop = this.stop;
     this.element.setAttribute('aria-busy', 'true');
+    this.waiting.begin(words.scale.drawing(this.app.store.value.buildings[this.building]?.id ?? '', stopText(stop)));
     try {
       await this.app.need([this.building]);
-      const answer = await this.app.source.scale(questionOf(this.building, this.stop));
-      if (number !== this.asked) return;
+      if (signal.aborted) return;
+      const answer = await this.app.source.scale(questionOf(this.building, stop), signal);
+      if (signal.aborted) return;
+      this.endAsking();
+      this.drawn = stop;
       this.draw(answer);
     } catch (error) {
-      if (number === this.asked) this.app.store.say(error instanceof Error ? error.message : words.source.garbled, true);
-    } finally {
-      if (number === this.asked) this.element.removeAttribute('aria-busy');
+      if (signal.aborted) return;
+      this.endAsking();
+      if (error instanceof SourceError && error.isSuperseded) return;
+      this.stop = this.drawn;
+      this.mark();
+      this.app.store.say(error instanceof Error ? error.message : words.source.garbled, true);
     }
   }
 
   private draw(answer: ScaleAnswer): void {
     const {geometry} = this.app.store.value;
     this.divider ??= new Divider(this.app, words.scale.original, words.scale.generalised);
-    this.divider.show([{
-      number: this.building, vertices_mm: answer.vertices_mm, storeys_mm: geometry.get(this.building)?.storeys_mm ?? [],
-      polygons: answer.polygons.map(polygon => ({rings: polygon.rings, owners: polygon.feature < 0 ? [] : [polygon.feature], surface: polygon.surface}))
-    }]);
+    const polygons = answer.polygons.map(({rings, feature, surface}) => ({rings, owners: feature < 0 ? [] : [feature], surface}));
+    this.divider.show([shapeOf(this.building, answer.vertices_mm, polygons, geometry.get(this.building)?.storeys_mm ?? [])]);
     this.placeDivider();
     this.say(answer);
     this.listOutcomes(answer);
@@ -145,7 +175,7 @@ class ScalePanel {
       replace(this.facts, el('p', {class: 'quiet'}, words.scale.hint));
       return;
     }
-    const before = this.app.store.value.geometry.get(this.building)?.polygons.length ?? 0;
+    const before = this.app.store.value.geometry.get(this.building)?.ring_ends.length ?? 0;
     replace(this.facts,
       el('p', {}, words.scale.polygons(before, answer.polygons.length)),
       el('p', {class: answer.is_valid ? 'good' : 'grave'}, answer.is_valid ? words.scale.valid : words.scale.invalid),
@@ -169,7 +199,7 @@ class ScalePanel {
   }
 
   private outcomeItem(outcome: ScaleAnswer['outcomes'][number]): HTMLElement {
-    const feature = this.app.store.value.geometry.get(this.building)?.features[outcome.feature];
+    const feature = this.app.feature(this.building, outcome.feature);
     const name = feature?.name || feature?.id || '';
     return el('li', {}, el('button', {
       type: 'button', class: 'tree-row', onclick: () => { if (outcome.feature >= 0) this.app.select({building: this.building, feature: outcome.feature}, false); }

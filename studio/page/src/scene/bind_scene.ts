@@ -9,6 +9,7 @@ import {Overlay, type OverlayLine, type OverlayMark} from './overlay';
 import type {Paint} from './paint';
 import {heatOf} from './heat';
 import {looksOf, rgb, type Look} from './palette';
+import {ownersOf} from './shape';
 
 /** More marks than these hide the building; the list of changes has them all. */
 const kMostMarks = 24;
@@ -39,9 +40,19 @@ export function paintOf(app: App, looks: Look[]): Paint {
   const {labels, filter, selection, found, changed, shows_changes, colours, hover} = app.store.value;
   return {
     labels, looks, unknown: {colour: '#e7e2d8', pattern: colours === 'pattern' ? 5 : 0}, hidden: filter.hidden,
-    heat: colours === 'heat' ? heatOf(app.store.value) : null, selection, hover, found,
+    heat: colours === 'heat' ? heatOf(app.store.value) : null, selection, hover, found, open: openBuildings(app),
     changed: shows_changes ? changed.map(({building, feature}): Part => [building, feature]) : []
   };
+}
+
+const openOf = new WeakMap<object, ReadonlySet<number>>();
+
+/** Those that are no closed bodies. */
+function openBuildings(app: App): ReadonlySet<number> {
+  const {buildings} = app.store.value;
+  let open = openOf.get(buildings);
+  if (!open) openOf.set(buildings, open = new Set(buildings.flatMap(({is_open}, number) => (is_open ? [number] : []))));
+  return open;
 }
 
 export const kSceneColours = {
@@ -72,7 +83,7 @@ class Binding {
   takeColours(): void { this.scene.setColours(kSceneColours[this.app.store.value.is_dark ? 'dark' : 'light']); }
 
   takeGeometry(): void {
-    this.scene.setBuildings([...this.app.store.value.geometry.values()]);
+    this.scene.setBuildings(this.app.store.value.geometry);
   }
 
   takeBoxes(): void {
@@ -160,10 +171,11 @@ class Binding {
   /** A second click on the same place goes to the feature around it. */
   private inner(selection: Selection): Selection {
     const old = this.app.store.value.selection;
-    const polygon = this.app.store.value.geometry.get(selection.building)?.polygons[selection.polygon ?? -1];
-    if (!old || !polygon || old.building !== selection.building || old.polygon !== selection.polygon) return selection;
-    const at = polygon.owners.indexOf(old.feature ?? -1);
-    const next = polygon.owners[at + 1];
+    const shape = this.app.store.value.geometry.get(selection.building);
+    if (!old || !shape || selection.polygon === undefined || old.building !== selection.building || old.polygon !== selection.polygon) return selection;
+    const owners = ownersOf(shape, selection.polygon);
+    const at = owners.indexOf(old.feature ?? -1);
+    const next = owners[at + 1];
     return at >= 0 && next !== undefined ? {...selection, feature: next} : selection;
   }
 
@@ -189,11 +201,11 @@ class Binding {
   }
 
   private nameOf({building, feature, polygon}: Selection): string {
-    const {geometry, classes, buildings} = this.app.store.value;
+    const {classes, buildings} = this.app.store.value;
     const entry = buildings[building]?.id ?? '';
     if (feature === undefined) return buildings.length > 1 || polygon === undefined ? entry : words.scene.surface;
     const label = classes[labelOf(this.app.store.value, building, feature)]?.name ?? words.scene.unknown;
-    const name = geometry.get(building)?.features[feature]?.name ?? '';
+    const name = this.app.feature(building, feature)?.name ?? '';
     return name.startsWith(label) ? name : name ? `${label} · ${name}` : label;
   }
 }

@@ -8,12 +8,16 @@ import {heatColour, surfaceColours} from './palette';
 /** A building's box in metres from the origin of the scene. */
 export interface PlacedBox { building: number; from: Vec3; to: Vec3 }
 
+const kPlain = new Color(surfaceColours.wall);
+
 export class BuildingBoxes {
   readonly object = new Group();
   readonly bounds = new Box3();
   private placed: PlacedBox[] = [];
   private mesh: InstancedMesh | null = null;
   private away: {has(building: number): boolean} = new Set();
+  private heat: Paint['heat'] = null;
+  private painted: InstancedMesh | null = null;
 
   set(boxes: PlacedBox[], away: {has(building: number): boolean}): void {
     this.placed = boxes;
@@ -27,15 +31,18 @@ export class BuildingBoxes {
     this.mesh.instanceMatrix.setUsage(DynamicDrawUsage);
     this.mesh.frustumCulled = false;
     this.object.add(this.mesh);
-    for (let i = 0; i < boxes.length; ++i) this.mesh.setColorAt(i, new Color(surfaceColours.wall));
+    for (let i = 0; i < boxes.length; ++i) this.mesh.setColorAt(i, kPlain);
     this.leaveOut(away);
   }
 
-  /** The corners of the boxes of all buildings. */
-  corners(): Vector3[] {
-    return this.placed.flatMap(({from, to}) => [0, 1, 2, 3, 4, 5, 6, 7].map(i =>
+  /** The corners of the boxes of these buildings, or of all. */
+  corners(buildings?: {has(building: number): boolean}): Vector3[] {
+    return this.placed.filter(({building}) => buildings?.has(building) ?? true).flatMap(({from, to}) => [0, 1, 2, 3, 4, 5, 6, 7].map(i =>
       new Vector3(i & 1 ? to[0] : from[0], i & 2 ? to[1] : from[1], i & 4 ? to[2] : from[2])));
   }
+
+  /** Whether there is a box of a building that is not among these. */
+  hasOthers(buildings: {has(building: number): boolean}): boolean { return this.placed.some(({building}) => !buildings.has(building)); }
 
   /** Those that are drawn as they are leave their boxes. */
   leaveOut(away: {has(building: number): boolean}): void {
@@ -53,10 +60,12 @@ export class BuildingBoxes {
   }
 
   paint(paint: Paint): void {
-    if (!this.mesh) return;
+    if (!this.mesh || (paint.heat === this.heat && this.mesh === this.painted)) return;
+    this.heat = paint.heat;
+    this.painted = this.mesh;
     this.placed.forEach(({building}, i) => {
       const heat = paint.heat?.get(building);
-      this.mesh!.setColorAt(i, new Color(heat === undefined ? surfaceColours.wall : heatColour(heat)));
+      this.mesh!.setColorAt(i, heat === undefined ? kPlain : new Color(heatColour(heat)));
     });
     this.mesh.instanceColor!.needsUpdate = true;
   }

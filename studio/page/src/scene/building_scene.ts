@@ -1,35 +1,31 @@
 // The picture of buildings: one canvas. It may be made twice (before and after), see divider.ts. It draws when something has changed,
 // and not before.
 import {
-  Box3, BufferAttribute, BufferGeometry, ColorManagement, Group, LinearSRGBColorSpace, LineSegments, Raycaster, Scene, Vector2,
-  Vector3, WebGLRenderer
+  Box3, BufferAttribute, BufferGeometry, ColorManagement, DoubleSide, Frustum, Group, LinearSRGBColorSpace, LineSegments, Matrix4, Plane, Raycaster, Scene,
+  Vector2, Vector3, WebGLRenderer, type Ray
 } from 'three';
-import type {Part} from '../source';
+import type {Part, Shape, Vec3} from '../source';
 import type {Selection} from '../store';
 import {BuildingBoxes, type PlacedBox} from './building_boxes';
-import {Camera} from './camera';
-import {bvhOf, ChunkBuilder, leaveOutSmall, type Chunk, type PolygonRef} from './chunk';
+import {Camera, type FreeArea} from './camera';
+import {Cap} from './cap';
+import {buildChunk, bvhOf, leaveOutSmall, placedAt, type Chunk, type PlacedShape} from './chunk';
 import {makeExtraLineMaterial, makeMaterials, makeUniforms} from './materials';
+import {NumberSpace} from './number_space';
 import {isMeant, kNothing, Painter, shownFeature, type Paint} from './paint';
 import {rgb} from './palette';
+import {hasOwner, pointOf, polygonCount, ringsOf, vertexCount} from './shape';
 import {normalOf, unit} from './triangulate';
-
-/** A building as the scene draws it. The polygons of a generalised one have `feature` as their only owner. */
-export interface SceneBuilding {
-  number: number;
-  vertices_mm: number[];
-  /** `surface` says what a polygon without a labelled feature is: WallSurface, RoofSurface … */
-  polygons: {rings: number[][]; owners: number[]; surface?: string}[];
-  storeys_mm: number[];
-}
 
 /** What lies under a point of the picture. */
 export interface Hit { selection: Selection; point: Vector3 }
 
 ColorManagement.enabled = false;
 
-/** Three calls a chunk, so at most 150 for all, however many buildings there are. */
-const kMostChunks = 45;
+/** Three calls a chunk and two more with a cut, so at most 180 for all, however many buildings there are. */
+const kMostChunks = 35;
+/** Chunks that are brought together become no larger than this, unless there would be too many. */
+const kChunkCorners = 120_000;
 const kChunkBuildings = 40;
 
 export class BuildingScene {
@@ -47,12 +43,16 @@ export class BuildingScene {
   private readonly chunkGroup = new Group();
   private readonly uniforms = makeUniforms();
   private readonly materials = makeMaterials(this.uniforms);
-  private refs: PolygonRef[] = [];
-  private painter = new Painter(this.uniforms, this.refs);
+  private readonly painter = new Painter(this.uniforms);
+  private readonly numbers = new NumberSpace();
+  private readonly cap = new Cap(this.uniforms);
   private chunks: Chunk[] = [];
-  private buildings = new Map<number, SceneBuilding>();
+  private buildings: ReadonlyMap<number, Shape> = new Map();
   private paint: Paint = kNothing;
   private box = new Box3();
+  /** The scene whose cut goes through this one, too. */
+  private followed: BuildingScene | null = null;
+  private readonly followers: BuildingScene[] = [];
   private isWaiting = false;
   private extra: LineSegments | null = null;
 
@@ -61,10 +61,11 @@ export class BuildingScene {
     this.element.className = 'picture';
     this.element.tabIndex = 0;
     host.prepend(this.element);
-    this.scene.add(this.chunkGroup, this.boxes.object);
+    this.scene.add(this.chunkGroup, this.boxes.object, this.cap.mesh);
     this.camera = new Camera(this.element, () => this.requestRender());
+    this.camera.freeArea = () => freeAreaOf(host);
     try {
-      this.renderer = new WebGLRenderer({antialias: true});
+      this.renderer = new WebGLRenderer({antialias: true, stencil: true});
     } catch { /* said by the shell */ }
     this.isDrawing = this.renderer !== null;
     if (!this.renderer) return;
@@ -76,24 +77,54 @@ export class BuildingScene {
 
   // ---- what is drawn ----
 
-  /** Draws these buildings instead of those that were drawn; those that are the same objects are kept. */
-  setBuildings(buildings: SceneBuilding[]): void {
-    const given = new Map(buildings.map(building => [building.number, building]));
-    const isKept = [...this.buildings].every(([number, old]) => given.get(number) === old);
-    const added = isKept ? buildings.filter(b => !this.buildings.has(b.number)) : buildings;
-    if (isKept && added.length === 0) return;
-    const chunks = Math.ceil(added.length / kChunkBuildings) + (isKept ? this.chunks.length : 0);
-    this.buildings = given;
-    if (!isKept || chunks > kMostChunks) this.rebuild(buildings);
-    else this.append(added, kChunkBuildings);
-    this.box = new Box3();
-    for (const chunk of this.chunks) {
-      if (!chunk.mesh.geometry.boundingBox) chunk.mesh.geometry.computeBoundingBox();
-      if (chunk.triangles > 0) this.box.union(chunk.mesh.geometry.boundingBox!);
+  /** Draws these buildings instead of those that were drawn; those that are the same objects are kept. What comes together is drawn
+      together, so it should lie together. */
+  setBuildings(buildings: ReadonlyMap<number, Shape>): void {
+    const added = [...buildings.values()].filter(shape => this.buildings.get(shape.number) !== shape);
+    const gone = new Set([...this.buildings.values()].filter(shape => buildings.get(shape.number) !== shape));
+    if (added.length === 0 && gone.size === 0) return;
+    this.buildings = buildings;
+    for (const chunk of [...this.chunks]) {
+      const kept = chunk.shapes.map(({shape}) => shape).filter(shape => !gone.has(shape));
+      if (kept.length === chunk.shapes.length) continue;
+      this.drop(chunk);
+      if (kept.length > 0) this.append(kept);
     }
+    for (let i = 0; i < added.length; i += kChunkBuildings) this.append(added.slice(i, i + kChunkBuildings));
+    if (this.chunks.length > kMostChunks) this.merge();
+    this.box = new Box3();
+    for (const chunk of this.chunks) if (chunk.triangles > 0) this.box.union(chunk.mesh.geometry.boundingBox!);
     this.boxes.leaveOut(this.buildings);
-    this.painter.paint(this.paint);
+    this.painter.paint(this.paint, added.map(({number}) => number));
+    this.layCap();
     this.requestRender();
+  }
+
+  private append(shapes: Shape[]): void {
+    const polygons = shapes.reduce((sum, shape) => sum + polygonCount(shape), 0);
+    const chunk = buildChunk(shapes, this.numbers.take(polygons), this.materials);
+    for (const placed of chunk.shapes) this.painter.add(placed);
+    this.painter.paint(this.paint, shapes.map(({number}) => number));
+    chunk.hiddenLines.visible = this.materials.hiddenLines.visible;
+    this.chunks.push(chunk);
+    this.chunkGroup.add(chunk.mesh, chunk.lines, chunk.hiddenLines, chunk.backs, chunk.fronts);
+  }
+
+  /** Brings the smallest chunks together, until there are few again. */
+  private merge(): void {
+    const sizeOf = (chunk: Chunk) => chunk.mesh.geometry.getAttribute('position').count;
+    const inOrder = [...this.chunks].sort((p, q) => sizeOf(p) - sizeOf(q));
+    for (let most = kChunkCorners; this.chunks.length > kMostChunks * 3 / 4; most *= 2)
+      for (let first = 0; first < inOrder.length && this.chunks.length > kMostChunks / 2;) {
+        let size = 0, last = first;
+        while (last < inOrder.length && (size += sizeOf(inOrder[last]!)) <= most) ++last;
+        if (last <= first + 1) break;
+        const together = inOrder.splice(first, last - first);
+        for (const chunk of together) this.drop(chunk);
+        this.append(together.flatMap(({shapes}) => shapes.map(({shape}) => shape)));
+        inOrder.splice(first, 0, this.chunks.at(-1)!);
+        ++first;
+      }
   }
 
   /** Boxes for buildings whose geometry has not come. */
@@ -126,11 +157,20 @@ export class BuildingScene {
     this.requestRender();
   }
 
-  /** Leaves out what lies on the side of a plane to which its normal points; null shows all. */
+  /** Leaves out what lies on the side of a plane to which its normal points, and closes the bodies that it goes through; null shows all. */
   setCut(normal: Vector3 | null, offset = 0): void {
     this.uniforms.cut.value.set(normal?.x ?? 0, normal?.y ?? 0, normal?.z ?? 0, offset);
+    this.layCap();
     this.requestRender();
+    for (const other of this.followers) other.setCut(normal, offset);
   }
+
+  private get isCut(): boolean { return this.normalOfCut.lengthSq() > 0.5; }
+  private get normalOfCut(): Vector3 {
+    const {x, y, z} = this.uniforms.cut.value;
+    return new Vector3(x, y, z);
+  }
+  private layCap(): void { this.cap.set(this.isCut ? this.normalOfCut : null, this.uniforms.cut.value.w, this.bounds); }
 
   /** Lines beside the buildings (the boxes of the truth): three coordinates in metres a point, two points a line. */
   setExtraLines(positions: Float32Array | null, colours = new Float32Array(0)): void {
@@ -160,79 +200,102 @@ export class BuildingScene {
   /** The corners of all that is drawn; of very many buildings those of their boxes. */
   corners(): Vector3[] {
     const kMost = 20000;
-    const buildings = [...this.buildings.values()];
-    const vertices = buildings.reduce((sum, {vertices_mm}) => sum + vertices_mm.length / 3, 0);
-    if (vertices === 0 || vertices > kMost) return this.boxes.corners();
-    const points: Vector3[] = [];
-    for (const {vertices_mm: mm} of buildings)
-      for (let i = 0; i + 2 < mm.length; i += 3) points.push(new Vector3(mm[i]! / 1000, mm[i + 1]! / 1000, mm[i + 2]! / 1000));
-    return points;
+    const shapes = [...this.buildings.values()];
+    const vertices = shapes.reduce((sum, shape) => sum + vertexCount(shape), 0);
+    if (vertices === 0 || vertices > kMost || this.boxes.hasOthers(this.buildings)) return this.boxes.corners();
+    return shapes.flatMap(shape => Array.from({length: vertexCount(shape)}, (_, v) => new Vector3(...pointOf(shape, v))));
   }
 
   /** To a selection, from outside and a little above; to everything if there is none. */
   fly(selection: Selection | null): void {
     this.settle();
     if (!selection) return this.camera.flyTo(this.corners(), null);
-    this.flyToRefs(this.refs.filter(ref => ref.building === selection.building &&
-      (selection.feature === undefined && selection.polygon === undefined || isMeant(ref, selection))));
+    const {building, feature, polygon} = selection;
+    const shape = this.buildings.get(building);
+    if (!shape) return this.camera.flyTo(this.boxes.corners(new Set([building])), null);
+    const isWhole = feature === undefined && polygon === undefined;
+    this.flyToPolygons(polygonsOf(shape, i => isWhole || isMeant(shape, i, selection)), isWhole);
   }
 
+  /** Of parts whose buildings have not come, to the boxes of these. */
   flyToParts(parts: Part[]): void {
     this.settle();
-    const wanted = new Set(parts.map(([b, f]) => `${b} ${f}`));
-    this.flyToRefs(this.refs.filter(ref => ref.owners.some(f => wanted.has(`${ref.building} ${f}`))));
+    const features = new Map<number, Set<number>>();
+    for (const [building, feature] of parts) features.set(building, (features.get(building) ?? new Set()).add(feature));
+    const missing = new Set([...features.keys()].filter(building => !this.buildings.has(building)));
+    const polygons = [...features].flatMap(([building, wanted]) => {
+      const shape = this.buildings.get(building);
+      return shape ? polygonsOf(shape, i => [...wanted].some(feature => hasOwner(shape, i, feature))) : [];
+    });
+    const all = [...this.buildings.values()].reduce((sum, shape) => sum + polygonCount(shape), 0);
+    this.flyToPolygons(polygons, polygons.length > all / 2, this.boxes.corners(missing));
   }
 
-  private flyToRefs(refs: PolygonRef[]): void {
-    const all: Vector3[] = [];
+  private flyToPolygons(polygons: [Shape, number][], isWhole: boolean, more: Vector3[] = []): void {
+    const all: Vector3[] = [...more];
     const outside = new Vector3();
-    for (const ref of refs) {
-      const {vertices_mm: mm, polygons} = this.buildings.get(ref.building)!;
-      const ring = polygons[ref.polygon]!.rings[0] ?? [];
-      const points = ring.map(v => new Vector3(mm[3 * v]! / 1000, mm[3 * v + 1]! / 1000, mm[3 * v + 2]! / 1000));
+    for (const [shape, polygon] of polygons) {
+      const points = (ringsOf(shape, polygon)[0] ?? []).map(v => new Vector3(...pointOf(shape, v)));
       all.push(...points);
       for (let i = 2; i < points.length; ++i)
         outside.add(points[i - 1]!.clone().sub(points[0]!).cross(points[i]!.clone().sub(points[0]!)));
     }
-    const isPart = refs.length > 0 && refs.length < this.refs.length / 2;
-    this.camera.flyTo(all, isPart && outside.length() > 0.05 ? outside.normalize() : null);
+    this.camera.flyTo(all, !isWhole && outside.length() > 0.05 ? outside.normalize() : null);
   }
 
-  /** Looks from where the other looks, and the other from where this one does. */
-  follow(other: BuildingScene): void { this.camera.tie(other.camera); }
+  /** Looks from where the other looks, and the other from where this one does; a cut of the other goes through this one, too. */
+  follow(other: BuildingScene): void {
+    this.camera.tie(other.camera);
+    this.followed = other;
+    other.followers.push(this);
+    if (other.isCut) this.setCut(other.normalOfCut, other.uniforms.cut.value.w);
+  }
 
   /** The middle of the box of a feature's polygons; null if it has none here. */
   centreOf([building, feature]: Part): Vector3 | null {
-    const found = this.buildings.get(building);
-    if (!found) return null;
+    const shape = this.buildings.get(building);
+    if (!shape) return null;
     const box = new Box3();
-    for (const polygon of found.polygons) {
-      if (!polygon.owners.includes(feature)) continue;
-      for (const v of polygon.rings[0] ?? [])
-        box.expandByPoint(new Vector3(found.vertices_mm[3 * v]! / 1000, found.vertices_mm[3 * v + 1]! / 1000, found.vertices_mm[3 * v + 2]! / 1000));
-    }
+    for (const [, polygon] of polygonsOf(shape, i => hasOwner(shape, i, feature)))
+      for (const v of ringsOf(shape, polygon)[0] ?? []) box.expandByPoint(new Vector3(...pointOf(shape, v)));
     return box.isEmpty() ? null : box.getCenter(new Vector3());
   }
 
   /** The edges around what is chosen and between its faces, as pairs of points; none of a whole building. */
   outlineOf(selection: Selection): [Vector3, Vector3][] {
-    const found = this.buildings.get(selection.building);
-    if (!found || (selection.feature === undefined && selection.polygon === undefined)) return [];
-    const at = (v: number) => new Vector3(found.vertices_mm[3 * v]! / 1000, found.vertices_mm[3 * v + 1]! / 1000, found.vertices_mm[3 * v + 2]! / 1000);
+    const shape = this.buildings.get(selection.building);
+    if (!shape || (selection.feature === undefined && selection.polygon === undefined)) return [];
+    const at = (v: number) => new Vector3(...pointOf(shape, v));
     const edges = new Map<string, {ends: [number, number]; normals: [number, number, number][]}>();
-    found.polygons.forEach((polygon, number) => {
-      if (selection.feature !== undefined ? !polygon.owners.includes(selection.feature) : number !== selection.polygon) return;
-      const normal = unit(normalOf((polygon.rings[0] ?? []).map(v => at(v).toArray())));
-      for (const ring of polygon.rings)
+    for (const [, polygon] of polygonsOf(shape, i => isMeant(shape, i, selection))) {
+      const rings = ringsOf(shape, polygon);
+      const normal = unit(normalOf((rings[0] ?? []).map(v => pointOf(shape, v))));
+      for (const ring of rings)
         ring.forEach((v, i) => {
           const w = ring[(i + 1) % ring.length]!;
           const key = v < w ? `${v} ${w}` : `${w} ${v}`;
           if (!edges.has(key)) edges.set(key, {ends: [v, w], normals: []});
           edges.get(key)!.normals.push(normal);
         });
-    });
+    }
     const isFlat = ([p, q]: [number, number, number][]) => q !== undefined && p![0] * q[0] + p![1] * q[1] + p![2] * q[2] > 0.996;
     return [...edges.values()].filter(({normals}) => !isFlat(normals)).map(({ends}) => [at(ends[0]), at(ends[1])]);
+  }
+
+  /** How large boxes are in the picture, in CSS pixels; of those out of sight as if they were far away. */
+  sizesOf(boxes: readonly {at_m: Vec3; size_m: Vec3}[]): number[] {
+    const kOutOfSight = 0.02;
+    const camera = this.camera.three;
+    camera.updateMatrixWorld();
+    const sight = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+    const perRadian = this.element.clientHeight / 0.73;
+    const box = new Box3(), size = new Vector3();
+    return boxes.map(({at_m, size_m}) => {
+      box.min.set(...at_m);
+      box.max.set(at_m[0] + size_m[0], at_m[1] + size_m[1], at_m[2] + size_m[2]);
+      const distance = Math.max(0.1, box.distanceToPoint(camera.position));
+      return perRadian * box.getSize(size).length() / distance * (sight.intersectsBox(box) ? 1 : kOutOfSight);
+    });
   }
 
   /** Where a point of the world lies in the picture, in CSS pixels; null behind the camera. */
@@ -251,11 +314,13 @@ export class BuildingScene {
     for (const chunk of this.chunks) {
       const sphere = chunk.mesh.geometry.boundingSphere;
       if (chunk.triangles === 0 || (sphere && !ray.ray.intersectsSphere(sphere))) continue;
-      for (const found of bvhOf(chunk).raycast(ray.ray, 2)) {
+      for (const found of bvhOf(chunk).raycast(ray.ray, DoubleSide)) {
         if (best && found.distance >= best.distance) continue;
         const number = chunk.mesh.geometry.getAttribute('number').getX(found.face!.a);
-        const ref = this.refs[number];
-        if (ref && !this.isAway(ref, found.point)) best = {distance: found.distance, hit: {selection: this.selectionOf(ref), point: found.point}};
+        const placed = placedAt(chunk, number);
+        if (this.isAway(placed, number, found.point)) continue;
+        best = {distance: found.distance, hit: this.isInside(ray.ray, found.face!.normal, placed) ? this.hitOfCap(placed, ray.ray) :
+          {selection: this.selectionOf(placed, number), point: found.point}};
       }
     }
     const box = this.boxes.hit(ray.ray);
@@ -263,29 +328,38 @@ export class BuildingScene {
     return best?.hit ?? null;
   }
 
+  /** A face of a closed body that is first seen from within lies behind the cut. */
+  private isInside(ray: Ray, normal: Vector3, placed: PlacedShape): boolean {
+    return this.isCut && normal.dot(ray.direction) > 0 && !this.paint.open.has(placed.shape.number) && this.paint.hidden.size === 0;
+  }
+
+  private hitOfCap({shape}: PlacedShape, ray: Ray): Hit {
+    const plane = new Plane(this.normalOfCut, -this.uniforms.cut.value.w);
+    return {selection: {building: shape.number}, point: ray.intersectPlane(plane, new Vector3()) ?? ray.origin};
+  }
+
   /** The corner of the buildings that is nearest to a point, of the polygon that was hit. */
   cornerNear(hit: Hit): Vector3 {
     const {building, polygon} = hit.selection;
-    const found = this.buildings.get(building);
+    const shape = this.buildings.get(building);
     let best = hit.point, distance = Infinity;
-    for (const ring of found?.polygons[polygon ?? -1]?.rings ?? [])
-      for (const v of ring) {
-        const corner = new Vector3(found!.vertices_mm[3 * v]! / 1000, found!.vertices_mm[3 * v + 1]! / 1000, found!.vertices_mm[3 * v + 2]! / 1000);
-        if (corner.distanceTo(hit.point) < distance) { distance = corner.distanceTo(hit.point); best = corner; }
-      }
+    for (const v of shape && polygon !== undefined ? ringsOf(shape, polygon).flat() : []) {
+      const corner = new Vector3(...pointOf(shape!, v));
+      if (corner.distanceTo(hit.point) < distance) { distance = corner.distanceTo(hit.point); best = corner; }
+    }
     return best;
   }
 
-  private selectionOf(ref: PolygonRef): Selection {
-    const feature = shownFeature(ref.owners, this.paint.labels.get(ref.building));
-    return {building: ref.building, polygon: ref.polygon, ...(feature >= 0 ? {feature} : {})};
+  private selectionOf({shape, begin}: PlacedShape, number: number): Selection {
+    const feature = shownFeature(shape, number - begin, this.paint.labels.get(shape.number));
+    return {building: shape.number, polygon: number - begin, ...(feature >= 0 ? {feature} : {})};
   }
 
-  private isAway(ref: PolygonRef, point: Vector3): boolean {
+  private isAway({shape, begin}: PlacedShape, number: number, point: Vector3): boolean {
     const cut = this.uniforms.cut.value;
-    if (cut.x * cut.x + cut.y * cut.y + cut.z * cut.z > 0.5 && cut.x * point.x + cut.y * point.y + cut.z * point.z > cut.w) return true;
-    const labels = this.paint.labels.get(ref.building);
-    const feature = shownFeature(ref.owners, labels);
+    if (this.isCut && cut.x * point.x + cut.y * point.y + cut.z * point.z > cut.w) return true;
+    const labels = this.paint.labels.get(shape.number);
+    const feature = shownFeature(shape, number - begin, labels);
     return this.paint.hidden.has(feature < 0 ? -2 : labels?.[feature] ?? -1);
   }
 
@@ -307,7 +381,11 @@ export class BuildingScene {
     const height = this.element.clientHeight;
     this.uniforms.period.value = 9 * this.camera.distance * 0.73 / height;
     const pixelAt1m = 0.73 / (height * this.renderer.getPixelRatio());
-    for (const chunk of this.chunks) leaveOutSmall(chunk, pixelAt1m * this.distanceTo(chunk));
+    for (const chunk of this.chunks) {
+      leaveOutSmall(chunk, pixelAt1m * this.distanceTo(chunk));
+      chunk.backs.visible = chunk.fronts.visible = this.isCut;
+      if (this.isCut) chunk.mesh.geometry.setDrawRange(0, Infinity);  // what is left out would not be counted
+    }
     this.renderer.render(this.scene, this.camera.three);
     this.host.dataset['drawCalls'] = String(this.drawCalls);
     for (const call of this.onRender) call();
@@ -333,39 +411,19 @@ export class BuildingScene {
     this.render();
   }
 
-  private rebuild(buildings: SceneBuilding[]): void {
-    for (const chunk of this.chunks) this.drop(chunk);
-    this.chunks = [];
-    this.refs = [];
-    this.painter = new Painter(this.uniforms, this.refs);
-    this.painter.setLooks(this.paint);
-    this.append(buildings, Math.max(kChunkBuildings, Math.ceil(buildings.length / (kMostChunks / 2))));
-  }
-
-  private append(buildings: SceneBuilding[], size: number): void {
-    for (let i = 0; i < buildings.length; i += size) {
-      const builder = new ChunkBuilder(this.refs);
-      for (const building of buildings.slice(i, i + size)) {
-        const begin = this.refs.length;
-        builder.add(building);
-        this.painter.noteRange(building.number, begin, this.refs.length);
-      }
-      const chunk = builder.finish(this.materials);
-      chunk.hiddenLines.visible = this.materials.hiddenLines.visible;
-      this.chunks.push(chunk);
-      this.chunkGroup.add(chunk.mesh, chunk.lines, chunk.hiddenLines);
-    }
-  }
-
   private drop(chunk: Chunk): void {
-    this.chunkGroup.remove(chunk.mesh, chunk.lines, chunk.hiddenLines);
+    this.chunkGroup.remove(chunk.mesh, chunk.lines, chunk.hiddenLines, chunk.backs, chunk.fronts);
+    this.chunks.splice(this.chunks.indexOf(chunk), 1);
+    this.numbers.give(chunk.begin, chunk.end);
+    for (const placed of chunk.shapes) if (this.painter.of(placed.shape.number) === placed) this.painter.drop(placed.shape.number);
     chunk.mesh.geometry.dispose();
     chunk.lines.geometry.dispose();
   }
 
   dispose(): void {
-    for (const chunk of this.chunks) this.drop(chunk);
-    this.chunks = [];
+    for (const chunk of [...this.chunks]) this.drop(chunk);
+    this.cap.dispose();
+    this.followed?.followers.splice(this.followed.followers.indexOf(this), 1);
     this.camera.dispose();
     this.renderer?.dispose();
     this.renderer?.forceContextLoss();
@@ -403,4 +461,23 @@ export class BuildingScene {
       for (const call of this.onContext) call(hit, event);
     });
   }
+}
+
+function polygonsOf(shape: Shape, isWanted: (polygon: number) => boolean): [Shape, number][] {
+  return Array.from({length: polygonCount(shape)}, (_, polygon): [Shape, number] => [shape, polygon]).filter(([, polygon]) => isWanted(polygon));
+}
+
+/** The larger of what is beside the legend and what is over it, below the tools. */
+function freeAreaOf(host: HTMLElement): FreeArea {
+  const all = host.getBoundingClientRect();
+  const bar = host.querySelector('.tool-bar')?.getBoundingClientRect();
+  const card = host.querySelector('.legend-card')?.getBoundingClientRect();
+  if (all.width === 0 || all.height === 0) return {left: 0, top: 0, width: 1, height: 1};
+  const top = bar ? bar.bottom - all.top : 0;
+  const areaOf = (left: number, bottom: number): FreeArea =>
+    ({left: left / all.width, top: top / all.height, width: 1 - left / all.width, height: Math.max(0.2, (bottom - top) / all.height)});
+  if (!card || card.width === 0) return areaOf(0, all.height);
+  const beside = areaOf(card.right - all.left, all.height), over = areaOf(0, card.top - all.top);
+  const sideOf = ({width, height}: FreeArea) => Math.min(width * all.width, height * all.height);
+  return sideOf(beside) >= sideOf(over) ? beside : over;
 }

@@ -11,6 +11,8 @@ const kLeastRadiusM = 3;
 const kMargin = 1.12;
 const kFirstDirection = new Vector3(0.5, -0.8, 0.5).normalize();
 
+export interface FreeArea { left: number; top: number; width: number; height: number }
+
 export class Camera {
   readonly three = new PerspectiveCamera(kFieldDeg, 1, 0.1, 1e5);
   private readonly controls: OrbitControls;
@@ -18,6 +20,10 @@ export class Camera {
   private flight = 0;
   /** The reader has turned, moved or zoomed it. */
   isMoved = false;
+  /** Where nothing lies over the picture, as shares of its width and height: what is looked at comes into the middle of that. */
+  freeArea: () => FreeArea = () => ({left: 0, top: 0, width: 1, height: 1});
+  /** From the middle of the picture to the middle of the view, as shares of its size. */
+  private readonly viewShift = new Vector2();
 
   constructor(element: HTMLElement, private readonly onChange: () => void) {
     this.three.up.set(0, 0, 1);
@@ -38,7 +44,12 @@ export class Camera {
 
   resize(width: number, height: number): void {
     this.three.aspect = width / height;
-    this.three.updateProjectionMatrix();
+    this.place(this.viewShift);
+  }
+
+  private place(shift: Vector2): void {
+    this.viewShift.copy(shift);
+    this.three.setViewOffset(1000 * this.three.aspect, 1000, -1000 * this.three.aspect * shift.x, -1000 * shift.y, 1000 * this.three.aspect, 1000);
   }
 
   /** The nearest and the farthest depth that are drawn, so that precision goes to what there is. */
@@ -61,8 +72,9 @@ export class Camera {
   look(points: Vector3[], direction: Vector3, around = 1): void {
     if (points.length === 0) return;
     const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
-    const tall = Math.tan(kFieldDeg * Math.PI / 360);
-    const wide = tall * this.three.aspect;
+    const free = this.freeArea();
+    const tall = Math.tan(kFieldDeg * Math.PI / 360) * free.height;
+    const wide = Math.tan(kFieldDeg * Math.PI / 360) * this.three.aspect * free.width;
     const right = new Vector3().crossVectors(this.three.up, direction).normalize();
     const up = new Vector3().crossVectors(direction, right);
     let distance = 0;
@@ -81,7 +93,8 @@ export class Camera {
       const middle = seen.getCenter(new Vector2()).multiplyScalar(distance);
       if (round < 2) centre.addScaledVector(right, middle.x).addScaledVector(up, middle.y);
     }
-    this.goTo(centre.clone().addScaledVector(direction, distance), centre);
+    this.goTo(centre.clone().addScaledVector(direction, distance), centre,
+      new Vector2(free.left + free.width / 2 - 0.5, free.top + free.height / 2 - 0.5));
   }
 
   /** From the front, the side, above: the numbers 1, 2, 3. */
@@ -90,9 +103,9 @@ export class Camera {
     this.look(points, direction.normalize());
   }
 
-  private goTo(position: Vector3, target: Vector3): void {
+  private goTo(position: Vector3, target: Vector3, shift: Vector2): void {
     const number = ++this.flight;
-    const from = {position: this.three.position.clone(), target: this.controls.target.clone()};
+    const from = {position: this.three.position.clone(), target: this.controls.target.clone(), shift: this.viewShift.clone()};
     const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
     const begin = performance.now();
     const step = () => {
@@ -101,6 +114,7 @@ export class Camera {
       const eased = 1 - (1 - t) ** 3;
       this.three.position.lerpVectors(from.position, position, eased);
       this.controls.target.lerpVectors(from.target, target, eased);
+      this.place(from.shift.clone().lerp(shift, eased));
       this.controls.update();
       this.moved();
       if (t < 1) requestAnimationFrame(step);
@@ -118,6 +132,7 @@ export class Camera {
     this.three.position.copy(other.three.position);
     this.three.quaternion.copy(other.three.quaternion);
     this.controls.target.copy(other.controls.target);
+    this.place(other.viewShift);
     this.three.updateMatrixWorld();
     this.onChange();
   }

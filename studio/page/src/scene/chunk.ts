@@ -2,18 +2,22 @@
 // polygon; what a polygon looks like stands in a texture (paint.ts), so that a new label costs no geometry.
 import {BufferAttribute, BufferGeometry, LineSegments, Mesh, type ShaderMaterial} from 'three';
 import {MeshBVH} from 'three-mesh-bvh';
-import type {SceneBuilding} from './building_scene';
-import {normalOf, planeAxes, triangulate, unit, type Point} from './triangulate';
+import type {Shape} from '../source';
+import {creasesOf} from './creases';
+import {polygonCount, startOf} from './shape';
+import {planeAxes, triangulate, type Point} from './triangulate';
 
-/** What a polygon of the scene is. */
-export interface PolygonRef {
-  building: number; polygon: number; owners: number[]; isRoof: boolean;
-}
+/** A building in a chunk: its polygons have the numbers from `begin`. */
+export interface PlacedShape { shape: Shape; begin: number; isRoof: Uint8Array }
 
-export interface Materials { faces: ShaderMaterial; lines: ShaderMaterial; hiddenLines: ShaderMaterial }
+export interface Materials { faces: ShaderMaterial; lines: ShaderMaterial; hiddenLines: ShaderMaterial; backs: ShaderMaterial; fronts: ShaderMaterial }
 
 export interface Chunk {
-  mesh: Mesh; lines: LineSegments; hiddenLines: LineSegments; buildings: number[]; triangles: number; bvh: MeshBVH | null;
+  mesh: Mesh; lines: LineSegments; hiddenLines: LineSegments; triangles: number; bvh: MeshBVH | null;
+  /** The faces seen from behind and from the front, which count up and down what a cut goes through (cap.ts). */
+  backs: Mesh; fronts: Mesh;
+  /** In the order of their polygons' numbers, which are those from `begin` to `end`. */
+  shapes: PlacedShape[]; begin: number; end: number;
   /** The areas of the triangles and the lengths of the lines, which stand in this order, the largest first. */
   areas: Float32Array; lengths: Float32Array;
 }
@@ -46,66 +50,123 @@ function countOver(values: Float32Array, least: number): number {
 /** Polygons steeper than this are walls, in degrees from level. */
 const kWallSlope = 70;
 const kRoof = Math.cos(kWallSlope * Math.PI / 180);
-/** Edges between polygons tilted by less are not drawn, unless they lie in different features. */
-const kFlat = Math.cos(5 * Math.PI / 180);
 
-interface Edge { a: number; b: number; first: number; second: number; isCrease: boolean }
+/** The polygons get the numbers from `begin`. */
+export function buildChunk(shapes: readonly Shape[], begin: number, materials: Materials): Chunk {
+  const builder = new ChunkBuilder(shapes, begin);
+  for (const shape of shapes) builder.add(shape);
+  return builder.finish(materials);
+}
 
-export class ChunkBuilder {
-  private readonly positions: number[] = [];
-  private readonly normals: number[] = [];
-  private readonly uvs: number[] = [];
-  private readonly numbers: number[] = [];
+class ChunkBuilder {
+  private readonly positions: Float32Array;
+  private readonly normals: Int8Array;
+  private readonly numbers: Float32Array;
   private readonly index: number[] = [];
   private readonly linePositions: number[] = [];
   private readonly lineSides: number[] = [];
-  private readonly buildings: number[] = [];
+  private readonly placed: PlacedShape[] = [];
+  /** Corners and polygons that are there by now. */
+  private corner = 0;
+  private number: number;
 
-  /** `refs` gets the polygons, whose numbers are their places there. */
-  constructor(private readonly refs: PolygonRef[]) {}
+  constructor(shapes: readonly Shape[], private readonly begin: number) {
+    const corners = shapes.reduce((sum, shape) => sum + shape.corners.length, 0);
+    this.positions = new Float32Array(3 * corners);
+    this.normals = new Int8Array(4 * corners);
+    this.numbers = new Float32Array(corners);
+    this.number = begin;
+  }
 
-  add(building: SceneBuilding): void {
-    this.buildings.push(building.number);
-    const mm = building.vertices_mm;
-    const at = (v: number): Point => [mm[3 * v]! / 1000, mm[3 * v + 1]! / 1000, mm[3 * v + 2]! / 1000];
-    const edges = new Map<number, Edge>();
-    const vertexCount = mm.length / 3;
-    const planes: [number, number, number][] = [];
-    const base = this.refs.length;
-    building.polygons.forEach((polygon, number) => {
-      const rings = polygon.rings.map(ring => ring.map(at));
-      const normal = unit(normalOf(rings[0] ?? []));
-      planes.push(normal);
-      this.refs.push({building: building.number, polygon: number, owners: polygon.owners, isRoof: isRoof(polygon.surface, normal)});
-      if (rings[0] && rings[0].length >= 3) this.addFaces(rings, normal, base + number);
-      for (const ring of polygon.rings)
-        for (let i = 0; i < ring.length; ++i)
-          noteEdge(edges, vertexCount, ring[i]!, ring[(i + 1) % ring.length]!, base + number, planes, base, this.refs);
-    });
-    for (const edge of edges.values()) {
-      if (!edge.isCrease) continue;
-      this.linePositions.push(...at(edge.a), ...at(edge.b));
-      this.lineSides.push(edge.first, edge.second, edge.first, edge.second);
+  add(shape: Shape): void {
+    const polygons = polygonCount(shape);
+    const isRoof = new Uint8Array(polygons);
+    const normals = new Float32Array(3 * polygons);
+    for (let polygon = 0; polygon < polygons; ++polygon) {
+      const firstRing = startOf(shape.ring_ends, polygon), lastRing = shape.ring_ends[polygon]!;
+      if (firstRing === lastRing) continue;
+      const from = startOf(shape.corner_ends, firstRing), to = shape.corner_ends[lastRing - 1]!;
+      const first = this.corner;
+      this.addCorners(shape, from, to, this.number + polygon);
+      const normal = this.normalOf(first, shape.corner_ends[firstRing]! - from);
+      normals.set(normal, 3 * polygon);
+      isRoof[polygon] = Number(shape.surfaces?.[polygon] ? shape.surfaces[polygon] === 'RoofSurface' : normal[2] > kRoof);
+      for (let i = first; i < this.corner; ++i)
+        for (let k = 0; k < 3; ++k) this.normals[4 * i + k] = Math.round(127 * normal[k]!);
+      this.addTriangles(shape, firstRing, lastRing, first, normal);
+    }
+    for (const {a, b, first, second} of creasesOf(shape, normals)) {
+      this.addEnd(shape, a);
+      this.addEnd(shape, b);
+      this.lineSides.push(this.number + first, this.number + second, this.number + first, this.number + second);
+    }
+    this.placed.push({shape, begin: this.number, isRoof});
+    this.number += polygons;
+  }
+
+  private addEnd({base_mm, vertices_mm}: Shape, vertex: number): void {
+    for (let k = 0; k < 3; ++k) this.linePositions.push((base_mm[k]! + vertices_mm[3 * vertex + k]!) / 1000);
+  }
+
+  private addCorners({base_mm, vertices_mm, corners}: Shape, from: number, to: number, number: number): void {
+    for (let i = from; i < to; ++i) {
+      const vertex = corners[i]!;
+      for (let k = 0; k < 3; ++k) this.positions[3 * this.corner + k] = (base_mm[k]! + vertices_mm[3 * vertex + k]!) / 1000;
+      this.numbers[this.corner++] = number;
     }
   }
 
-  private addFaces(rings: Point[][], normal: [number, number, number], number: number): void {
-    const axes = planeAxes(normal);
-    const [u, v] = axes;
-    const begin = this.positions.length / 3;
-    for (const ring of rings)
-      for (const p of ring) {
-        this.positions.push(p[0], p[1], p[2]);
-        this.normals.push(Math.round(127 * normal[0]), Math.round(127 * normal[1]), Math.round(127 * normal[2]));
-        this.uvs.push(p[0] * u[0] + p[1] * u[1] + p[2] * u[2], p[0] * v[0] + p[1] * v[1] + p[2] * v[2]);
-        this.numbers.push(number);
-      }
-    for (const i of triangulate(rings, axes)) this.index.push(begin + i);
+  /** Newell's normal of a ring, of length 1; nothing of a ring without area. Counted from its first corner: floats are coarse far out. */
+  private normalOf(first: number, count: number): [number, number, number] {
+    const p = this.positions;
+    let x = 0, y = 0, z = 0;
+    const [ox, oy, oz] = [p[3 * first]!, p[3 * first + 1]!, p[3 * first + 2]!];
+    for (let i = 0; i < count; ++i) {
+      const a = 3 * (first + i), b = 3 * (first + (i + 1) % count);
+      const ax = p[a]! - ox, ay = p[a + 1]! - oy, az = p[a + 2]! - oz, bx = p[b]! - ox, by = p[b + 1]! - oy, bz = p[b + 2]! - oz;
+      x += (ay - by) * (az + bz);
+      y += (az - bz) * (ax + bx);
+      z += (ax - bx) * (ay + by);
+    }
+    const length = Math.hypot(x, y, z) || 1;
+    return [x / length, y / length, z / length];
+  }
+
+  private addTriangles(shape: Shape, firstRing: number, lastRing: number, first: number, normal: Point): void {
+    const count = this.corner - first;
+    if (count < 3) return;
+    if (lastRing === firstRing + 1 && count === 3) this.index.push(first, first + 1, first + 2);
+    else if (lastRing === firstRing + 1 && count === 4 && this.isConvex(first, normal)) this.index.push(first, first + 1, first + 2, first, first + 2, first + 3);
+    else for (const i of triangulate(this.ringsAt(shape, firstRing, lastRing, first), planeAxes(normal))) this.index.push(first + i);
+  }
+
+  /** True if the four corners turn the same way everywhere, seen against the normal. */
+  private isConvex(first: number, [nx, ny, nz]: Point): boolean {
+    const p = this.positions;
+    for (let i = 0; i < 4; ++i) {
+      const a = 3 * (first + i), b = 3 * (first + (i + 1) % 4), c = 3 * (first + (i + 2) % 4);
+      const ux = p[b]! - p[a]!, uy = p[b + 1]! - p[a + 1]!, uz = p[b + 2]! - p[a + 2]!;
+      const vx = p[c]! - p[b]!, vy = p[c + 1]! - p[b + 1]!, vz = p[c + 2]! - p[b + 2]!;
+      if (nx * (uy * vz - uz * vy) + ny * (uz * vx - ux * vz) + nz * (ux * vy - uy * vx) <= 0) return false;
+    }
+    return true;
+  }
+
+  private ringsAt(shape: Shape, firstRing: number, lastRing: number, first: number): Point[][] {
+    const rings: Point[][] = [];
+    let at = first;
+    for (let ring = firstRing; ring < lastRing; ++ring) {
+      const points: Point[] = [];
+      for (let i = startOf(shape.corner_ends, ring); i < shape.corner_ends[ring]!; ++i, ++at)
+        points.push([this.positions[3 * at]!, this.positions[3 * at + 1]!, this.positions[3 * at + 2]!]);
+      rings.push(points);
+    }
+    return rings;
   }
 
   private areaOf(triangle: number): number {
     const p = this.positions;
-    const [a, b, c] = [0, 1, 2].map(k => 3 * this.index[3 * triangle + k]!) as [number, number, number];
+    const a = 3 * this.index[3 * triangle]!, b = 3 * this.index[3 * triangle + 1]!, c = 3 * this.index[3 * triangle + 2]!;
     const ux = p[b]! - p[a]!, uy = p[b + 1]! - p[a + 1]!, uz = p[b + 2]! - p[a + 2]!;
     const vx = p[c]! - p[a]!, vy = p[c + 1]! - p[a + 1]!, vz = p[c + 2]! - p[a + 2]!;
     return Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
@@ -118,12 +179,13 @@ export class ChunkBuilder {
 
   finish(materials: Materials): Chunk {
     const faces = new BufferGeometry();
-    faces.setAttribute('position', new BufferAttribute(new Float32Array(this.positions), 3));
-    faces.setAttribute('normal', new BufferAttribute(new Int8Array(this.normals), 3, true));
-    faces.setAttribute('uv', new BufferAttribute(new Float32Array(this.uvs), 2));
-    faces.setAttribute('number', new BufferAttribute(new Float32Array(this.numbers), 1));
+    faces.setAttribute('position', new BufferAttribute(this.positions, 3));
+    faces.setAttribute('normal', new BufferAttribute(this.normals, 4, true));
+    faces.setAttribute('number', new BufferAttribute(this.numbers, 1));
     const triangles = orderBy(this.index.length / 3, i => this.areaOf(i));
-    faces.setIndex(new BufferAttribute(Uint32Array.from({length: this.index.length}, (_, i) => this.index[3 * triangles.order[Math.floor(i / 3)]! + i % 3]!), 1));
+    const index = new Uint32Array(this.index.length);
+    triangles.order.forEach((from, to) => { for (let k = 0; k < 3; ++k) index[3 * to + k] = this.index[3 * from + k]!; });
+    faces.setIndex(new BufferAttribute(index, 1));
     const edges = orderBy(this.linePositions.length / 6, i => this.lengthOf(i));
     const linePositions = new Float32Array(this.linePositions.length), lineSides = new Float32Array(this.lineSides.length);
     edges.order.forEach((from, to) => {
@@ -134,12 +196,15 @@ export class ChunkBuilder {
     lines.setAttribute('position', new BufferAttribute(linePositions, 3));
     lines.setAttribute('sides', new BufferAttribute(lineSides, 2));
     faces.computeBoundingSphere();
+    faces.computeBoundingBox();
     lines.computeBoundingSphere();
     const hiddenLines = new LineSegments(lines, materials.hiddenLines);
     hiddenLines.renderOrder = 2;
+    const backs = new Mesh(faces, materials.backs), fronts = new Mesh(faces, materials.fronts);
+    backs.renderOrder = fronts.renderOrder = -2;
     return {
-      mesh: new Mesh(faces, materials.faces), lines: new LineSegments(lines, materials.lines), hiddenLines,
-      buildings: this.buildings, triangles: this.index.length / 3, bvh: null, areas: triangles.values, lengths: edges.values
+      mesh: new Mesh(faces, materials.faces), lines: new LineSegments(lines, materials.lines), hiddenLines, backs, fronts, shapes: this.placed,
+      begin: this.begin, end: this.number, triangles: this.index.length / 3, bvh: null, areas: triangles.values, lengths: edges.values
     };
   }
 }
@@ -148,9 +213,13 @@ export class ChunkBuilder {
     these sizes in that order. */
 function orderBy(count: number, valueOf: (i: number) => number): {order: Uint32Array; values: Float32Array} {
   const kSteps = 4, kFloor = 2 ** -14;
-  const classOf = (value: number) => Math.max(0, Math.round(kSteps * Math.log2(Math.max(value, kFloor) / kFloor)));
-  const classes = Uint16Array.from({length: count}, (_, i) => classOf(valueOf(i)));
-  const most = classes.reduce((max, c) => Math.max(max, c), 0);
+  const classes = new Uint16Array(count);
+  let most = 0;
+  for (let i = 0; i < count; ++i) {
+    const size = Math.max(0, Math.round(kSteps * Math.log2(Math.max(valueOf(i), kFloor) / kFloor)));
+    classes[i] = size;
+    most = Math.max(most, size);
+  }
   const begins = new Uint32Array(most + 2);
   for (const c of classes) ++begins[most - c + 1]!;
   for (let c = 1; c < begins.length; ++c) begins[c]! += begins[c - 1]!;
@@ -173,24 +242,13 @@ export function bvhOf(chunk: Chunk): MeshBVH {
   return chunk.bvh;
 }
 
-function isRoof(surface: string | undefined, normal: Point): boolean {
-  if (surface) return surface === 'RoofSurface';
-  return normal[2] > kRoof;
-}
-
-function noteEdge(edges: Map<number, Edge>, vertexCount: number, from: number, to: number, number: number,
-                  planes: [number, number, number][], base: number, refs: PolygonRef[]): void {
-  if (from === to) return;
-  const a = Math.min(from, to), b = Math.max(from, to);
-  const key = a * vertexCount + b;
-  const edge = edges.get(key);
-  if (!edge) {
-    edges.set(key, {a, b, first: number, second: number, isCrease: true});
-    return;
+/** The building of a chunk to which the polygon of that number belongs. */
+export function placedAt(chunk: Chunk, number: number): PlacedShape {
+  let low = 0, high = chunk.shapes.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (chunk.shapes[middle]!.begin <= number) low = middle;
+    else high = middle - 1;
   }
-  if (edge.second !== edge.first) { edge.isCrease = true; return; }
-  edge.second = number;
-  const p = planes[edge.first - base]!, q = planes[number - base]!;
-  const isFlat = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] > kFlat;
-  edge.isCrease = !isFlat || refs[edge.first]!.owners[0] !== refs[number]!.owners[0];
+  return chunk.shapes[low]!;
 }

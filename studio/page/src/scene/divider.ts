@@ -1,9 +1,10 @@
 // A second picture over the first, cut off at a line that is dragged or moved by arrow keys: before at its left, after at its right.
 import type {App} from '../app';
 import {el} from '../dom';
+import type {Shape} from '../source';
 import {words} from '../strings';
 import {kSceneColours, paintOf} from './bind_scene';
-import {BuildingScene, type SceneBuilding} from './building_scene';
+import {BuildingScene} from './building_scene';
 import {looksOf} from './palette';
 
 /** Of more buildings only the given ones are drawn at the right. */
@@ -46,12 +47,15 @@ export class Divider {
   }
 
   /** Shows these buildings at the right of the line, among the others as they are. */
-  show(buildings: SceneBuilding[], labels: ReadonlyMap<number, number[]> | null = null): void {
+  show(buildings: Shape[], labels: ReadonlyMap<number, number[]> | null = null): void {
     this.labels = labels;
     const given = new Set(buildings.map(({number}) => number));
     const {geometry} = this.app.store.value;
     const others = geometry.size > kMostNeighbours ? [] : [...geometry.values()].filter(({number}) => !given.has(number));
-    this.after.setBuildings([...others, ...buildings]);
+    // The others first: what changes from one scale to the next lies in a chunk of its own.
+    const asTheyAre = new Map(others.map(shape => [shape.number, shape]));
+    this.after.setBuildings(asTheyAre);
+    this.after.setBuildings(new Map([...asTheyAre, ...buildings.map((shape): [number, Shape] => [shape.number, shape])]));
     this.isShown = true;
     this.place = this.share;
   }

@@ -26,9 +26,14 @@ export function topOf(shares: ReadonlyMap<number, number>): number {
   return [0.02, 0.05, 0.1, 0.25, 0.5].find(top => most <= top) ?? 1;
 }
 
-/** The place of every building between the first and the last colour. */
-export function heatOf(values: Readonly<Values>): Map<number, number> {
+let last: {of: unknown[]; heat: ReadonlyMap<number, number>} = {of: [], heat: new Map()};
+
+/** The place of every building between the first and the last colour; the same map as long as nothing has changed. */
+export function heatOf(values: Readonly<Values>): ReadonlyMap<number, number> {
+  const of = [values.labels, values.heat, values.doubtful, values.changed, values.score];
+  if (of.every((value, i) => value === last.of[i])) return last.heat;
   const shares = sharesOf(values);
   const top = topOf(shares);
-  return new Map([...shares].map(([building, share]) => [building, share / top]));
+  last = {of, heat: new Map([...shares].map(([building, share]) => [building, share / top]))};
+  return last.heat;
 }

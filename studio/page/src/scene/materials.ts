@@ -1,10 +1,14 @@
 // How faces and lines are drawn. A face looks up its polygon's entry in `state` (paint.ts): red is the number of its colour in
-// `palette`, green are flags, blue is its place in the heat map.
-import {DataTexture, GLSL3, GreaterDepth, NearestFilter, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector3, Vector4, DoubleSide} from 'three';
+// `palette`, green are flags.
+import {
+  AlwaysStencilFunc, BackSide, DataTexture, DecrementWrapStencilOp, DoubleSide, FrontSide, GLSL3, GreaterDepth, IncrementWrapStencilOp, NearestFilter,
+  NotEqualStencilFunc, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector3, Vector4, ZeroStencilOp
+} from 'three';
 import type {Materials} from './chunk';
 
 export const kStateWidth = 2048;
-export const kFlag = {hidden: 1, selected: 2, hover: 4, changed: 8, found: 16, faint: 32, ghost: 64};
+/** `open`: its building is no closed body. */
+export const kFlag = {hidden: 1, selected: 2, hover: 4, changed: 8, found: 16, faint: 32, open: 64};
 
 export interface Uniforms {
   [name: string]: {value: unknown};
@@ -50,7 +54,11 @@ const kFaceVertex = `
     vEntry = entryOf(number);
     vNormal = normalize(normalMatrix * normal);
     vWorld = position;
-    vPlane = uv;
+    // Level and upwards in the polygon's plane, north in a level one: patterns lie in them.
+    float level = length(normal.xy);
+    vec3 u = level < 1e-3 ? vec3(1., 0., 0.) : vec3(-normal.y, normal.x, 0.) / level;
+    vec3 v = level < 1e-3 ? vec3(0., 1., 0.) : vec3(-u.y * normal.z, u.x * normal.z, level);
+    vPlane = vec2(dot(position, u), dot(position, v));
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.);
     if ((vEntry.g & ${kFlag.hidden}) != 0) gl_Position = vec4(2., 2., 2., 1.);
   }`;
@@ -117,13 +125,10 @@ const kLineVertex = `
   ${kLookUp}
   void main() {
     int a = entryOf(sides.x).g, b = entryOf(sides.y).g;
-    bool isHidden = (a & b & ${kFlag.hidden}) != 0;
-    bool isGhost = (a & b & ${kFlag.ghost}) != 0;
     vFlags = (a | b) & ${kFlag.selected | kFlag.found};
-    if ((a & b & ${kFlag.faint}) != 0 || isGhost) vFlags |= ${kFlag.faint};
+    if ((a & b & ${kFlag.faint | kFlag.hidden}) != 0) vFlags |= ${kFlag.faint};
     vWorld = position;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.);
-    if (isHidden && !isGhost) gl_Position = vec4(2., 2., 2., 1.);
   }`;
 
 const lineFragment = (strength: string) => `
@@ -139,6 +144,42 @@ const lineFragment = (strength: string) => `
     bool isMarked = (vFlags & ${kFlag.selected | kFlag.found}) != 0;
     colour = vec4(isMarked ? accent : edge, isMarked ? 1. : strength);
   }`;
+
+/** Counting needs all faces of closed bodies, hidden ones too. */
+const kCountVertex = `
+  in float number;
+  out vec3 vWorld;
+  ${kLookUp}
+  void main() {
+    vWorld = position;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.);
+    if ((entryOf(number).g & ${kFlag.open}) != 0) gl_Position = vec4(2., 2., 2., 1.);
+  }`;
+
+const kCountFragment = `
+  uniform vec4 cut;
+  in vec3 vWorld;
+  out vec4 colour;
+  void main() {
+    if (dot(cut.xyz, vWorld) > cut.w) discard;
+    colour = vec4(0.);
+  }`;
+
+/** The plane of a cut, drawn where the counts are not even: hatched, as sections are. */
+export function makeCapMaterial(uniforms: Uniforms): ShaderMaterial {
+  return new ShaderMaterial({glslVersion: GLSL3, uniforms, side: DoubleSide, stencilWrite: true, stencilRef: 0, stencilFunc: NotEqualStencilFunc,
+    stencilFail: ZeroStencilOp, stencilZFail: ZeroStencilOp, stencilZPass: ZeroStencilOp, polygonOffset: true, polygonOffsetFactor: 0.5, polygonOffsetUnits: 0.5,
+    vertexShader: 'void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.); }',
+    fragmentShader: `
+      uniform vec3 ground, edge;
+      uniform float brightness;
+      out vec4 colour;
+      void main() {
+        vec3 fill = mix(vec3(.55, .53, .5), ground, .3) * brightness;
+        float d = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 11.) - .5);
+        colour = vec4(mix(fill, edge, .28 * smoothstep(.38, .46, d)), 1.);
+      }`});
+}
 
 /** Boxes of buildings that have not come: a colour for each, and a shade for each side. */
 export function makeBoxMaterial(): ShaderMaterial {
@@ -165,11 +206,18 @@ export function makeExtraLineMaterial(): ShaderMaterial {
 
 export function makeMaterials(uniforms: Uniforms): Materials {
   const common = {glslVersion: GLSL3, uniforms};
+  const counting = {...common, vertexShader: kCountVertex, fragmentShader: kCountFragment, colorWrite: false, depthWrite: false, depthTest: false,
+    stencilWrite: true, stencilFunc: AlwaysStencilFunc} as const;
   return {
     faces: new ShaderMaterial({...common, vertexShader: kFaceVertex, fragmentShader: kFaceFragment, side: DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}),
     lines: new ShaderMaterial({...common, vertexShader: kLineVertex, fragmentShader: lineFragment('.62'), transparent: true}),
     hiddenLines: new ShaderMaterial({...common, vertexShader: kLineVertex, fragmentShader: lineFragment('.2'), transparent: true,
-      depthFunc: GreaterDepth, depthWrite: false})
+      depthFunc: GreaterDepth, depthWrite: false}),
+    // A cut is closed where the sight enters a body more often than it leaves it: backs count up, fronts down.
+    backs: new ShaderMaterial({...counting, side: BackSide, stencilFail: IncrementWrapStencilOp, stencilZFail: IncrementWrapStencilOp,
+      stencilZPass: IncrementWrapStencilOp}),
+    fronts: new ShaderMaterial({...counting, side: FrontSide, stencilFail: DecrementWrapStencilOp, stencilZFail: DecrementWrapStencilOp,
+      stencilZPass: DecrementWrapStencilOp})
   };
 }

@@ -1,10 +1,11 @@
 // Which colour and which marks each polygon has: written into a texture that the materials read.
 import type {DataTexture} from 'three';
-import type {Part} from '../source';
+import type {Part, Shape} from '../source';
 import type {Selection} from '../store';
-import type {PolygonRef} from './chunk';
+import type {PlacedShape} from './chunk';
 import {kFlag, kStateWidth, paletteTexture, stateTexture, type Uniforms} from './materials';
 import {heatColour, rgb, surfaceColours, type Look} from './palette';
+import {hasOwner, startOf} from './shape';
 
 /** What the look of a polygon depends on. Class -1 is a feature without a label, -2 what lies in no feature. */
 export interface Paint {
@@ -18,39 +19,61 @@ export interface Paint {
   hover: Selection | null;
   found: Part[];
   changed: Part[];
+  /** Buildings that are no closed bodies: a cut through them has no inside. */
+  open: ReadonlySet<number>;
 }
 
 export const kNothing: Paint = {
   labels: new Map(), looks: [], unknown: {colour: '#e7e2d8', pattern: 0}, hidden: new Set(), heat: null, selection: null, hover: null,
-  found: [], changed: []
+  found: [], changed: [], open: new Set()
 };
 
 const kSlot = {wall: 0, roof: 1, unknown: 2, heat: 16, heats: 32, classes: 64};
 const kMostClasses = 256 - kSlot.classes;
 
-/** The feature that a polygon shows: the smallest with a label that it lies in, else the smallest. */
-export function shownFeature(owners: readonly number[], labels: readonly number[] | undefined): number {
-  for (const feature of owners) if ((labels?.[feature] ?? -1) >= 0) return feature;
-  return owners[0] ?? -1;
+/** The feature that a polygon shows: the smallest with a label that it lies in, else the smallest; -1 for none. */
+export function shownFeature({owner_ends, owners}: Shape, polygon: number, labels: readonly number[] | undefined): number {
+  const from = startOf(owner_ends, polygon), to = owner_ends[polygon]!;
+  for (let i = from; i < to; ++i) if ((labels?.[owners[i]!] ?? -1) >= 0) return owners[i]!;
+  return from < to ? owners[from]! : -1;
 }
 
-const keyOf = (building: number, feature: number) => `${building} ${feature}`;
+type PartSet = Map<number, Set<number>>;
+
+function byBuilding(parts: readonly Part[]): PartSet {
+  const sets: PartSet = new Map();
+  for (const [building, feature] of parts) {
+    const set = sets.get(building);
+    if (set) set.add(feature);
+    else sets.set(building, new Set([feature]));
+  }
+  return sets;
+}
+
+function liesInOneOf({owner_ends, owners}: Shape, polygon: number, features: Set<number> | undefined): boolean {
+  if (!features) return false;
+  for (let i = startOf(owner_ends, polygon); i < owner_ends[polygon]!; ++i) if (features.has(owners[i]!)) return true;
+  return false;
+}
 
 export class Painter {
-  private ranges = new Map<number, [number, number]>();
+  private readonly placed = new Map<number, PlacedShape>();
 
-  constructor(private readonly uniforms: Uniforms, private readonly refs: PolygonRef[]) {}
+  constructor(private readonly uniforms: Uniforms) {}
 
-  /** Where the polygons of a building stand in `refs`; to be called after they have come. */
-  noteRange(building: number, begin: number, end: number): void {
-    this.ranges.set(building, [begin, end]);
-    const rows = Math.max(1, Math.ceil(end / kStateWidth));
+  /** A building is painted from now on; `paint` is to be called for it. */
+  add(placed: PlacedShape): void {
+    this.placed.set(placed.shape.number, placed);
+    const rows = Math.max(1, Math.ceil((placed.begin + placed.isRoof.length) / kStateWidth));
     const old = this.uniforms.state.value;
     if (old.image.height >= rows) return;
-    this.uniforms.state.value = stateTexture(Math.max(rows, 2 * old.image.height));
+    const texture = stateTexture(Math.max(rows, 2 * old.image.height));
+    (texture.image.data as Uint8Array).set(old.image.data as Uint8Array);
+    this.uniforms.state.value = texture;
     old.dispose();
   }
-  forget(): void { this.ranges = new Map(); }
+  drop(building: number): void { this.placed.delete(building); }
+  of(building: number): PlacedShape | undefined { return this.placed.get(building); }
 
   setLooks(paint: Paint): void {
     const old = this.uniforms.palette.value;
@@ -69,40 +92,41 @@ export class Painter {
   /** Writes the entries of some buildings, or of all. */
   paint(paint: Paint, buildings?: Iterable<number>): void {
     const texture: DataTexture = this.uniforms.state.value;
-    const found = new Set(paint.found.map(([b, f]) => keyOf(b, f)));
-    const changed = new Set(paint.changed.map(([b, f]) => keyOf(b, f)));
-    for (const building of buildings ?? this.ranges.keys()) {
-      const range = this.ranges.get(building);
-      if (range) this.paintBuilding(paint, building, range, found, changed, texture.image.data as Uint8Array);
+    const found = byBuilding(paint.found), changed = byBuilding(paint.changed);
+    for (const building of buildings ?? this.placed.keys()) {
+      const placed = this.placed.get(building);
+      if (placed) paintBuilding(paint, placed, found, changed, texture.image.data as Uint8Array);
     }
     texture.needsUpdate = true;
   }
+}
 
-  private paintBuilding(paint: Paint, building: number, [begin, end]: [number, number], found: Set<string>, changed: Set<string>,
-                        data: Uint8Array): void {
-    const labels = paint.labels.get(building);
-    const heat = paint.heat?.get(building);
-    for (let i = begin; i < end; ++i) {
-      const ref = this.refs[i]!;
-      const feature = shownFeature(ref.owners, labels);
-      const label = feature < 0 ? -2 : labels?.[feature] ?? -1;
-      let slot = ref.isRoof ? kSlot.roof : kSlot.wall;
-      if (heat !== undefined) slot = kSlot.heat + Math.round(Math.max(0, Math.min(1, heat)) * (kSlot.heats - 1));
-      else if (label >= 0) slot = kSlot.classes + label % kMostClasses;
-      else if (label === -1 && paint.unknown.pattern > 0) slot = kSlot.unknown;
-      let flags = paint.hidden.has(label) ? kFlag.hidden | kFlag.ghost : 0;
-      if (isMeant(ref, paint.selection)) flags |= kFlag.selected;
-      if (isMeant(ref, paint.hover)) flags |= kFlag.hover;
-      if (found.size > 0) flags |= ref.owners.some(f => found.has(keyOf(building, f))) ? kFlag.found : kFlag.faint;
-      if (changed.size > 0 && ref.owners.some(f => changed.has(keyOf(building, f)))) flags |= kFlag.changed;
-      data[4 * i] = slot;
-      data[4 * i + 1] = flags;
-    }
+function paintBuilding(paint: Paint, {shape, begin, isRoof}: PlacedShape, found: PartSet, changed: PartSet, data: Uint8Array): void {
+  const labels = paint.labels.get(shape.number);
+  const heat = paint.heat?.get(shape.number);
+  const heatSlot = heat === undefined ? 0 : kSlot.heat + Math.round(Math.max(0, Math.min(1, heat)) * (kSlot.heats - 1));
+  const foundHere = found.get(shape.number), changedHere = changed.get(shape.number);
+  const chosen = paint.selection?.building === shape.number ? paint.selection : null;
+  const hovered = paint.hover?.building === shape.number ? paint.hover : null;
+  const common = paint.open.has(shape.number) ? kFlag.open : 0;
+  for (let polygon = 0; polygon < isRoof.length; ++polygon) {
+    const feature = shownFeature(shape, polygon, labels);
+    const label = feature < 0 ? -2 : labels?.[feature] ?? -1;
+    let slot = isRoof[polygon] ? kSlot.roof : kSlot.wall;
+    if (heatSlot > 0) slot = heatSlot;
+    else if (label >= 0) slot = kSlot.classes + label % kMostClasses;
+    else if (label === -1 && paint.unknown.pattern > 0) slot = kSlot.unknown;
+    let flags = common | (paint.hidden.has(label) ? kFlag.hidden : 0);
+    if (chosen && isMeant(shape, polygon, chosen)) flags |= kFlag.selected;
+    if (hovered && isMeant(shape, polygon, hovered)) flags |= kFlag.hover;
+    if (found.size > 0) flags |= liesInOneOf(shape, polygon, foundHere) ? kFlag.found : kFlag.faint;
+    if (changedHere && liesInOneOf(shape, polygon, changedHere)) flags |= kFlag.changed;
+    data[4 * (begin + polygon)] = slot;
+    data[4 * (begin + polygon) + 1] = flags;
   }
 }
 
-export function isMeant(ref: PolygonRef, selection: Selection | null): boolean {
-  if (!selection || selection.building !== ref.building) return false;
-  if (selection.feature !== undefined) return ref.owners.includes(selection.feature);
-  return selection.polygon !== undefined && selection.polygon === ref.polygon;
+/** Of a polygon of the chosen building; a building as a whole marks none of its polygons. */
+export function isMeant(shape: Shape, polygon: number, {feature, polygon: chosen}: Selection): boolean {
+  return feature !== undefined ? hasOwner(shape, polygon, feature) : chosen === polygon;
 }

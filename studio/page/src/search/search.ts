@@ -1,15 +1,19 @@
-// Search by id, name, label, rule, or an expression of the language (`width > 3 m`). Ids and names are found in the page itself, the
-// rest by the source.
+// Search by id, name, label, rule, or an expression of the language (`width > 3 m`). Buildings and labels are found in the page
+// itself, the rest by the source.
 import type {App} from '../app';
 import {el} from '../dom';
 import {icon} from '../shell/icons';
 import type {Part} from '../source';
-import type {Selection} from '../store';
 import {words} from '../strings';
+import {matchesOf, plain} from './names';
 
 export function searchBox(app: App): {element: HTMLElement; search: (text: string) => void} {
-  const input = el('input', {type: 'search', id: 'search', placeholder: words.search.placeholder, 'aria-label': words.search.label, autocomplete: 'off',
+  const input = el('input', {type: 'search', id: 'search', 'aria-label': words.search.label, autocomplete: 'off',
     spellcheck: 'false', enterkeyhint: 'search'});
+  const narrow = matchMedia('(max-width: 759px)');
+  const fit = () => { input.placeholder = narrow.matches ? words.search.title : words.search.placeholder; };
+  narrow.addEventListener('change', fit);
+  fit();
   const run = (text: string) => void search(app, text.trim());
   const element = el('search', {class: 'search'}, el('form', {onsubmit: (event: Event) => { event.preventDefault(); run(input.value); }},
     icon('search'), input));
@@ -32,23 +36,26 @@ export function searchBox(app: App): {element: HTMLElement; search: (text: strin
 async function search(app: App, text: string): Promise<void> {
   if (text === '') return app.select(null);
   const {store} = app;
-  const named = findByName(app, text);
-  if (named) {
+  const building = findBuilding(app, text);
+  if (building >= 0) {
     store.say('');
-    return app.select(named, true);
+    return app.select({building}, true);
   }
   const labelled = findByLabel(app, text);
   if (labelled.length > 0) {
     store.say(words.search.found(labelled.length, text));
     return app.show(labelled, text);
   }
-  if (!app.source.can.search) return store.say(words.search.nothing(text), true);
   try {
-    const {parts, findings} = await app.source.search(text);
+    const {parts, buildings, findings} = await app.source.search(text);
     // A word that is no attribute is a name that nothing has; only conditions can be wrong.
     if (findings.length > 0) return store.say(/[<>=$(]/.test(text) ? findings[0]!.sentence : words.search.nothing(text), true);
+    if (parts.length === 0 && buildings.length > 0) {
+      store.say(words.search.buildings(buildings.length, text));
+      return app.select({building: buildings[0]!}, true);
+    }
     if (parts.length === 0) return store.say(words.search.nothing(text), true);
-    store.say(words.search.found(parts.length, text));
+    store.say(parts.length === 1 ? '' : words.search.found(parts.length, text));
     if (parts.length === 1) app.select({building: parts[0]![0], feature: parts[0]![1]}, true);
     else app.show(parts, text);
   } catch (error) {
@@ -56,27 +63,16 @@ async function search(app: App, text: string): Promise<void> {
   }
 }
 
-/** As `oriel explain` reads names: case, commas and the number of spaces do not count. */
-const plain = (text: string) => text.toLowerCase().split(/[,\s]+/).filter(Boolean).join(' ');
-
-/** The first feature or building with that id or name, else the first of which it is the beginning (of names, by whole words if there
-    is one). A label or a bare word is not taken for the beginning of a name. */
-export function findByName(app: App, text: string): Selection | null {
-  const {geometry, buildings, classes} = app.store.value;
+/** The first building with that id, else the first of which it is the beginning; -1 for none, or a label. */
+function findBuilding(app: App, text: string): number {
+  const {buildings, classes} = app.store.value;
   const meant = plain(text);
-  if (!meant || classes.some(({name}) => plain(name) === meant)) return null;
-  const matches: ((id: string, isId: boolean) => boolean)[] = [
-    (id, isId) => isId && id === text, id => plain(id) === meant, id => plain(id).startsWith(`${meant} `),
-    (id, isId) => isId && id.startsWith(text), id => meant.includes(' ') && plain(id).startsWith(meant)
-  ];
-  for (const matchesName of matches)
-    for (let building = 0; building < buildings.length; ++building) {
-      const features = geometry.get(building)?.features ?? [];
-      const feature = features.findIndex(({id, name}) => matchesName(id, true) || matchesName(name, false));
-      if (feature >= 0) return {building, feature};
-      if (matchesName(buildings[building]!.id, true)) return {building};
-    }
-  return null;
+  if (!meant || classes.some(({name}) => plain(name) === meant)) return -1;
+  for (const matches of matchesOf(text)) {
+    const found = buildings.findIndex(({id}) => matches(id, true));
+    if (found >= 0) return found;
+  }
+  return -1;
 }
 
 function findByLabel(app: App, text: string): Part[] {

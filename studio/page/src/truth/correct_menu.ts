@@ -109,8 +109,8 @@ class Menu {
 /** Opens the menu for a part at a place of the window. */
 export async function openCorrectMenu(app: App, part: Part, x: number, y: number): Promise<void> {
   const [building, feature] = part;
-  const {classes, geometry} = app.store.value;
-  const named = geometry.get(building)?.features[feature];
+  const {classes} = app.store.value;
+  const named = app.feature(building, feature);
   const label = classes[labelOf(app.store.value, building, feature)]?.name ?? words.changes.unknown;
   const corrections = await app.source.corrections().catch(() => ({path: '', list: [] as Correction[]}));
   const own = corrections.list.find(entry => entry.building === building && entry.feature === feature) ?? null;

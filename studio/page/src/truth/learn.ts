@@ -19,6 +19,7 @@ export class LearnBox {
   private readonly result = el('div', {class: 'proposal'});
   /** The text that the running search began with: the proposal is compared with it. */
   private asked = '';
+  private isStopped = false;
   private destroyView: () => void = () => undefined;
 
   constructor(private readonly app: App) {
@@ -45,6 +46,7 @@ export class LearnBox {
 
   private async begin(): Promise<void> {
     this.clear();
+    this.isStopped = false;
     this.asked = authorOf(this.app).text;
     this.setRunning(true);
     this.told.textContent = words.learn.running;
@@ -55,7 +57,8 @@ export class LearnBox {
         await new Promise(resolve => setTimeout(resolve, kPoll_ms));
         answer = await this.app.source.learn({});
       }
-      this.show(answer);
+      if (answer.state === 'idle' && !this.isStopped) this.told.textContent = words.learn.lost;
+      else this.show(answer);
     } catch (error) {
       this.told.textContent = error instanceof Error ? error.message : words.source.garbled;
     }
@@ -64,6 +67,7 @@ export class LearnBox {
 
   private async end(): Promise<void> {
     this.stop.disabled = true;
+    this.isStopped = true;
     await this.app.source.learn({stop: true}).catch(() => undefined);
     this.stop.disabled = false;
   }

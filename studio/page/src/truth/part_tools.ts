@@ -6,12 +6,12 @@ import type {ExplainAnswer, Part} from '../source';
 import {words} from '../strings';
 import {openCorrectMenu} from './correct_menu';
 
-export function partTools(app: App, part: Part, answer: ExplainAnswer): HTMLElement {
+export function partTools(app: App, part: Part, answer: ExplainAnswer | null): HTMLElement {
   const correct = el('button', {type: 'button', class: 'button tool', title: words.correct.hint, onclick: () => {
     const {left, bottom} = correct.getBoundingClientRect();
     void openCorrectMenu(app, part, left, bottom + 4);
   }}, words.correct.title);
-  const {flip} = answer;
+  const flip = answer?.flip;
   const set = flip && flip.param !== '' && el('button', {
     type: 'button', class: 'button tool', onclick: () => authorOf(app).setParam(flip.param, flip.value, true)
   }, words.correct.setParam(flip.param, flip.value));

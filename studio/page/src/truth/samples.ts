@@ -10,7 +10,7 @@ import {LearnBox} from './learn';
 const kAsked = 10;
 
 function nameOf(app: App, [building, feature]: Part): string {
-  const named = app.store.value.geometry.get(building)?.features[feature];
+  const named = app.feature(building, feature);
   return named?.name || named?.id || words.changes.part(feature);
 }
 
@@ -28,7 +28,7 @@ class Samples {
       el('section', {}, el('h3', {}, words.samples.corrections), this.correctionsSum, this.corrections),
       el('section', {}, el('h3', {}, words.samples.worth), el('p', {class: 'small quiet'}, words.samples.worthWhy), this.askButton, this.asked),
       new LearnBox(app).element);
-    app.store.watch(['selection', 'labels', 'geometry'], () => this.showChosen());
+    app.store.watch(['selection', 'labels', 'features'], () => this.showChosen());
     document.addEventListener('oriel-corrected', () => void this.read());
   }
 

@@ -73,10 +73,94 @@ async function explains({page, check, picture}) {
   check(!/sense (is|=)|\b[a-z]+_[a-z]+ is /.test(text.replace(/<code>.*?<\/code>/g, '')), 'without the names inside the engine');
   const link = page.locator('#why .link').first();
   const line = await link.getAttribute('data-line');
+  await page.mouse.move(...(await middleOf(page)).map(at => at + 1));
+  await page.waitForSelector('.tip:not([hidden])');
+  check(/window/.test(await page.textContent('.tip')), `the pointer on a part says what it is: ${await page.textContent('.tip')}`);
   await picture('explanation');
+  await flips({page, check, picture});
   await link.click();
   await page.waitForFunction(at => document.querySelector('.cm-activeLineGutter')?.textContent === at, line);
   check(true, 'and leads to the line of the pack');
+  await edits({page, check, picture});
+}
+
+/** The line of the editor where the cursor is, as text. */
+const lineOfCursor = page => page.evaluate(() => document.querySelector('.cm-activeLine')?.textContent ?? '');
+const textOfPack = page => page.evaluate(() => window.oriel.store.value.text);
+/** Waits until a test of the page's store holds; it is looked at from here, as the page lets no script be sent into it. */
+async function comes(test, what) {
+  for (const end = Date.now() + 10_000; !await test();) {
+    if (Date.now() > end) throw new Error(`it never came to: ${what}`);
+    await new Promise(resolve => setTimeout(resolve, 25));
+  }
+}
+
+/** Points at a word of a line, counted from 1, of the editor. */
+async function pointAt(page, line, word) {
+  await page.evaluate(number => window.oriel.openLine(number), line);
+  await page.waitForTimeout(60);
+  const place = await page.evaluate(([number, text]) => {
+    const rows = [...document.querySelectorAll('.cm-lineNumbers .cm-gutterElement')];
+    const row = rows.find(element => element.textContent === String(number))?.getBoundingClientRect();
+    const lines = [...document.querySelectorAll('.panel.editor .cm-line')];
+    const content = lines.find(element => Math.abs(element.getBoundingClientRect().top - row.top) < 4);
+    const walker = document.createTreeWalker(content, NodeFilter.SHOW_TEXT);
+    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+      const at = node.textContent.indexOf(text);
+      if (at < 0) continue;
+      const range = document.createRange();
+      range.setStart(node, at);
+      range.setEnd(node, at + text.length);
+      const {left, top, width, height} = range.getBoundingClientRect();
+      return [left + width / 2, top + height / 2];
+    }
+    return null;
+  }, [line, word]);
+  if (!place) throw new Error(`line ${line} has no ${word}`);
+  await page.mouse.move(place[0] + 2, place[1]);
+  await page.mouse.move(...place);
+  return place;
+}
+
+async function flips({page, check, picture}) {
+  await page.waitForSelector('#flip');
+  const told = await page.textContent('#flip');
+  check(/\d/.test(told) && await page.locator('#flip .link').count() === 1, `the smallest change that would flip it: ${told}`);
+  await picture('flip');
+  const [building, feature] = await page.evaluate(() => { const {selection} = window.oriel.store.value; return [selection.building, selection.feature]; });
+  const labelNow = () => page.evaluate(part => window.oriel.store.value.labels.get(part[0])[part[1]], [building, feature]);
+  const before = await labelNow(), text = await textOfPack(page);
+  await page.click('.part-tools .button >> nth=1');
+  await comes(async () => await labelNow() !== before, 'another label');
+  check(await textOfPack(page) !== text, 'a click sets that param, and the part has another label');
+  await page.keyboard.press('Control+z');
+  await comes(async () => await labelNow() === before, 'the label before');
+  check(await textOfPack(page) === text, 'and undo takes it back');
+}
+
+async function edits({page, check, picture}) {
+  const lines = (await textOfPack(page)).split('\n');
+  const defined = lines.findIndex(line => /^\s+widest_window:/.test(line)) + 1;
+  const used = lines.findIndex(line => line.includes('$widest_window')) + 1;
+  const place = await pointAt(page, used, 'widest_window');
+  await page.waitForSelector('.hint-hover');
+  check(/5 m|widest/.test(await page.textContent('.hint-hover')), `the pointer on a param says what it is: ${await page.textContent('.hint-hover')}`);
+  await picture('hover');
+  await page.mouse.click(...place);
+  await page.keyboard.press('F12');
+  await comes(async () => /^\s+widest_window:/.test(await lineOfCursor(page)), 'the definition');
+  check(await page.textContent('.cm-activeLineGutter >> nth=0') === String(defined), 'F12 goes to its definition');
+  await page.keyboard.press('F2');
+  await page.waitForSelector('.rename input:focus');
+  await page.keyboard.type('broadest');
+  await page.keyboard.press('Enter');
+  await comes(async () => /\$broadest\b/.test(await textOfPack(page)), 'the new name');
+  const renamed = await textOfPack(page);
+  check(!renamed.includes('widest_window') && /^\s+broadest:/m.test(renamed), 'F2 renames it everywhere');
+  await comes(() => page.evaluate(() => window.oriel.store.value.params.some(({name}) => name === 'broadest')), 'the labels of the renamed pack');
+  check(await page.evaluate(() => window.oriel.store.value.is_good), 'and the pack is as good as before');
+  await page.keyboard.press('Control+z');
+  await comes(async () => (await textOfPack(page)).includes('$widest_window'), 'the old name');
 }
 
 async function looks({page, check}) {
@@ -90,6 +174,11 @@ async function looks({page, check}) {
   await page.click('#tool-section');
   await page.click('.storeys button >> nth=0');
   check(await pictureOf(page) !== whole, 'a storey is cut open');
+  await page.evaluate(() => window.oriel.scene.camera.lookAlong('above', window.oriel.scene.corners()));
+  await drawn(page);
+  await picture('cut');
+  const [u, v] = await middleOf(page);
+  check(await page.evaluate(at => window.oriel.scene.hitAt(...at)?.selection.polygon === undefined, [u, v]), 'the cut is closed: nothing inside is hit');
   await page.check('#cut input[value=none]');
   await page.click('#tool-section');
   await page.focus('.picture');
