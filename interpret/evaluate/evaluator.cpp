@@ -198,13 +198,26 @@ Truth Evaluator::is_on(const Expr& expr, std::size_t row) const {
                   static_cast<HostKind>(expr.index));
 }
 
-Truth Evaluator::passes_filter(const Expr& expr, int other) {
-  auto& answers = filters_[expr.filter];
-  if (answers.empty()) answers.resize(context_->rows);
-  if (const auto known = answers[oriel::at(other)]) return *known;
-  // What is asked may ask further quantifiers.
-  const Truth answer = truth(expr.filter, rows_of(other, expr.level + 1));
-  return *(filters_[expr.filter][oriel::at(other)] = answer);
+void Evaluator::forget() {
+  for (const ExprId filter : asked_filters_) filters_[oriel::at(filter)].clear();
+  asked_filters_.clear();
+}
+
+/// Stays where it is until forget(): the pack has the same expressions meanwhile.
+Evaluator::FilterAnswers& Evaluator::answers_of(ExprId filter) {
+  if (filters_.size() < pack_->code.size()) filters_.resize(pack_->code.size());
+  FilterAnswers& answers = filters_[oriel::at(filter)];
+  if (answers.empty()) {
+    answers.resize(context_->rows);
+    asked_filters_.push_back(filter);
+  }
+  return answers;
+}
+
+Truth Evaluator::passes_filter(const Expr& expr, int other, FilterAnswers& answers) {
+  auto& answer = answers[oriel::at(other)];
+  if (!answer) answer = truth(expr.filter, rows_of(other, expr.level + 1));
+  return *answer;
 }
 
 /// Calls `visit` for each feature that the relation of a quantifier leads to: with the features of
@@ -215,11 +228,13 @@ void Evaluator::for_each_other(const Expr& expr, FeatureRows rows, Visit visit) 
   const Links& links = context_->relations[oriel::at(expr.index)];
   const int self = rows[oriel::at(expr.level)];
   const auto [begin, end] = links.range_of(self);
+  FilterAnswers* answers =
+      begin < end && expr.filter != kNoExpr ? &answers_of(expr.filter) : nullptr;
   for (std::size_t link = begin; link < end; ++link) {
     const int other = links.other(link);
     if (other == self) continue;
     rows[oriel::at(expr.level + 1)] = other;
-    Truth answer = expr.filter == kNoExpr ? Truth::yes : passes_filter(expr, other);
+    Truth answer = answers == nullptr ? Truth::yes : passes_filter(expr, other, *answers);
     if (expr.join != kNoExpr && answer != Truth::no)
       answer = std::min(answer, truth(expr.join, rows));
     if (!visit(rows, links.is_other(self, link), answer)) return;

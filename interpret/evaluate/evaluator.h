@@ -5,7 +5,6 @@
 
 #include <array>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 namespace oriel::rules {
@@ -51,7 +50,7 @@ class Evaluator {
       : pack_(&pack), context_(&context) {}
 
   /// To be called when memberships or params have changed.
-  void forget() { filters_.clear(); }
+  void forget();
 
   /// NaN where it is unknown.
   [[nodiscard]] double number(ExprId id, const FeatureRows& rows);
@@ -98,13 +97,17 @@ class Evaluator {
 
   template <class Visit>
   void for_each_other(const Expr& expr, FeatureRows rows, Visit visit);
-  Truth passes_filter(const Expr& expr, int other);
+  /// How each feature answers the filter of a quantifier, as soon as it was asked.
+  using FilterAnswers = std::vector<std::optional<Truth>>;
+  FilterAnswers& answers_of(ExprId filter);
+  Truth passes_filter(const Expr& expr, int other, FilterAnswers& answers);
 
   const Pack* pack_;
   const EvaluationContext* context_;
-  /// By filter of a quantifier, which reads nothing but the other feature: how each feature answers
-  /// it, as soon as it was asked.
-  std::unordered_map<ExprId, std::vector<std::optional<Truth>>> filters_;
+  /// By filter of a quantifier, which reads nothing but the other feature; empty where it was not
+  /// asked. And those that were.
+  std::vector<FilterAnswers> filters_;
+  std::vector<ExprId> asked_filters_;
 };
 
 }  // namespace oriel::rules

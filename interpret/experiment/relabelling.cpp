@@ -87,13 +87,25 @@ bool Relabelling::ask(const Pack& changed, const RuleUses::Affected& affected,
   is_anew_.assign(is_anew_.size(), false);
   Evaluator evaluator(changed, context);
   bool is_other = false;
-  for (const int rule : affected.rules) {
+  for (std::size_t i = 0; i < affected.rules.size(); ++i) {
+    const int rule = affected.rules[i];
     const auto r = oriel::at(rule);
-    judged_anew_[r] = judge(changed, changed.rules[r], evaluator, context.row_numbers);
+    judged_anew_[r] = judge_anew(changed, rule, affected.conditions[i], evaluator);
     is_anew_[r] = true;
     is_other = is_other || uses_->is_recursive(rule) || !are_same(judged_anew_[r], judged_[r]);
   }
   return is_other;
+}
+
+/// What its other conditions leave is asked once: those say the same with the same memberships.
+std::vector<Judgement> Relabelling::judge_anew(const Pack& changed, int rule,
+                                               const std::optional<std::vector<ExprId>>& conditions,
+                                               Evaluator& evaluator) {
+  const Rule& anew = changed.rules[oriel::at(rule)];
+  if (!conditions) return judge(changed, anew, evaluator, context_.row_numbers);
+  const auto [left, is_new] = left_by_others_.try_emplace({rule, *conditions});
+  if (is_new) left->second = judge_without(anew, evaluator, context_.row_numbers, *conditions);
+  return judge_on(changed, anew, evaluator, left->second, *conditions);
 }
 
 /// The same rules say the same as when choices were made last, so that the same would be chosen.

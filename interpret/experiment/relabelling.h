@@ -5,7 +5,9 @@
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/pack.h"
 
-#include <span>
+#include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace oriel::rules {
@@ -41,6 +43,9 @@ class Relabelling {
   [[nodiscard]] bool is_as_before(const RuleUses::Affected& affected) const;
   void keep(const RuleUses::Affected& affected, const Known& known);
   bool ask(const Pack& changed, const RuleUses::Affected& affected, EvaluationContext& context);
+  std::vector<Judgement> judge_anew(const Pack& changed, int rule,
+                                    const std::optional<std::vector<ExprId>>& conditions,
+                                    Evaluator& evaluator);
   std::vector<Choice> run(const Pack& pack, EvaluationContext& context, const Known* known) const;
 
   const Pack* pack_;
@@ -53,6 +58,8 @@ class Relabelling {
   std::vector<Choice> choices_;
   std::vector<std::vector<Truth>> membership_;
   std::vector<std::vector<Judgement>> judged_;
+  /// By rule and the conditions of it that a change affects: the features that its others leave.
+  std::map<std::pair<int, std::vector<ExprId>>, std::vector<Judgement>> left_by_others_;
   /// What the affected rules say with the same memberships, by rule; and which these are.
   std::vector<std::vector<Judgement>> judged_anew_;
   std::vector<bool> is_anew_;

@@ -12,10 +12,10 @@ RuleUses::RuleUses(const Pack& pack) : pack_(&pack), is_recursive_(pack.rules.si
   for (const RuleStep& step : pack.steps)
     for (const int rule : step.rules) is_recursive_[at(rule)] = step.is_recursive;
   const std::size_t relations = relation_schema().size() + pack.relations.size();
-  const Uses nothing{
-      std::vector<bool>(pack.params.size()), std::vector<bool>(relations), {}, false};
+  nothing_.params.resize(pack.params.size());
+  nothing_.relations.resize(relations);
   for (const Rule& rule : pack.rules) {
-    Uses& uses = rules_.emplace_back(nothing);
+    Uses& uses = rules_.emplace_back(nothing_);
     for (const ExprId id : rule.require) add(id, uses);
     for (const ExprId id : rule.unless) add(id, uses);
     for (const ScoreTerm& term : rule.score) {
@@ -30,7 +30,7 @@ RuleUses::RuleUses(const Pack& pack) : pack_(&pack), is_recursive_(pack.rules.si
     uses.classes.erase(std::unique(uses.classes.begin(), uses.classes.end()), uses.classes.end());
   }
   for (const RelationDefinition& relation : pack.relations) {
-    Uses& uses = relations_.emplace_back(nothing);
+    Uses& uses = relations_.emplace_back(nothing_);
     add(relation.where, uses);
     uses.relations[at(relation.within)] = true;
   }
@@ -47,13 +47,12 @@ void RuleUses::add(ExprId id, Uses& uses) const {
   for (const ExprId part : {expr.filter, expr.join, expr.value}) add(part, uses);
 }
 
-bool RuleUses::is_of(const Uses& uses, const std::vector<bool>& params,
-                     const std::vector<bool>& relations, bool has_other_hosts) const {
-  for (std::size_t i = 0; i < params.size(); ++i)
-    if (params[i] && uses.params[i]) return true;
-  for (std::size_t i = 0; i < relations.size(); ++i)
-    if (relations[i] && uses.relations[i]) return true;
-  return has_other_hosts && uses.has_facets;
+bool RuleUses::is_of(const Uses& uses, const Changes& changes) {
+  for (std::size_t i = 0; i < changes.params.size(); ++i)
+    if (changes.params[i] && uses.params[i]) return true;
+  for (std::size_t i = 0; i < changes.relations.size(); ++i)
+    if (changes.relations[i] && uses.relations[i]) return true;
+  return changes.has_other_hosts && uses.has_facets;
 }
 
 /// Of a constant.
@@ -64,42 +63,66 @@ bool RuleUses::depends(ExprId id, const std::vector<bool>& params) const {
   return std::ranges::any_of(expr.args, [&](ExprId arg) { return depends(arg, params); });
 }
 
-RuleUses::Affected RuleUses::affected_by(const PackChange& change) const {
-  using Kind = DroppedPart::Kind;
-  Affected affected;
-  std::vector<bool> params(pack_->params.size());
-  for (const auto& [param, value] : change.params) params[param] = true;
-  bool has_other_hosts = false;
+RuleUses::Changes RuleUses::changes_of(const PackChange& change) const {
+  Changes changes{nothing_.params, nothing_.relations, false};
+  for (const auto& [param, value] : change.params) changes.params[param] = true;
   for (const HostRange& range : {pack_->hosts.wall, pack_->hosts.roof, pack_->hosts.ground})
-    has_other_hosts = has_other_hosts || depends(range.low, params) || depends(range.high, params);
+    changes.has_other_hosts = changes.has_other_hosts || depends(range.low, changes.params) ||
+                              depends(range.high, changes.params);
   const std::size_t built_in = relation_schema().size();
-  std::vector<bool> relations(built_in + pack_->relations.size());
   for (std::size_t i = 0; i < relations_.size(); ++i)
-    relations[built_in + i] = is_of(relations_[i], params, relations, has_other_hosts);
-  affected.has_other_relations = std::ranges::find(relations, true) != relations.end();
+    changes.relations[built_in + i] = is_of(relations_[i], changes);
+  return changes;
+}
+
+bool RuleUses::decides_anew(const PackChange& change, const Changes& changes) const {
+  using Kind = DroppedPart::Kind;
+  const auto moves = [&](ExprId id) { return depends(id, changes.params); };
+  const Decide& decide = pack_->decide;
+  return moves(decide.min_score_of) || moves(decide.ambiguous_below_of) ||
+         moves(decide.evidence.most_of) ||
+         std::ranges::any_of(change.without,
+                             [](const DroppedPart& part) {
+                               return part.kind == Kind::evidence || part.kind == Kind::company ||
+                                      part.kind == Kind::typical;
+                             }) ||
+         std::ranges::any_of(evidence_relations(*pack_),
+                             [&](int relation) { return changes.relations[at(relation)]; }) ||
+         std::ranges::any_of(pack_->classes, [&](const Class& c) {
+           return std::ranges::any_of(c.typical, [&](const Typical& typical) {
+             return moves(typical.low_of) || moves(typical.high_of);
+           });
+         });
+}
+
+RuleUses::Affected RuleUses::affected_by(const PackChange& change) const {
+  const Changes changes = changes_of(change);
+  Affected affected;
+  affected.has_other_relations =
+      std::ranges::find(changes.relations, true) != changes.relations.end();
+  affected.decides_anew = decides_anew(change, changes);
   for (std::size_t i = 0; i < rules_.size(); ++i) {
     const bool is_changed = std::ranges::any_of(change.without, [&](const DroppedPart& part) {
-      return part.owner == static_cast<int>(i) && part.kind != Kind::typical;
+      return part.owner == static_cast<int>(i) && part.kind != DroppedPart::Kind::typical;
     });
-    if (is_changed || is_of(rules_[i], params, relations, has_other_hosts))
-      affected.rules.push_back(static_cast<int>(i));
+    if (!is_changed && !is_of(rules_[i], changes)) continue;
+    affected.rules.push_back(static_cast<int>(i));
+    auto& conditions = affected.conditions.emplace_back();
+    if (!is_changed) conditions = conditions_of(pack_->rules[i], changes);
   }
-  const Decide& decide = pack_->decide;
-  affected.decides_anew =
-      depends(decide.min_score_of, params) || depends(decide.ambiguous_below_of, params) ||
-      depends(decide.evidence.most_of, params) ||
-      std::ranges::any_of(change.without,
-                          [](const DroppedPart& part) {
-                            return part.kind == Kind::evidence || part.kind == Kind::company ||
-                                   part.kind == Kind::typical;
-                          }) ||
-      std::ranges::any_of(evidence_relations(*pack_),
-                          [&](int relation) { return relations[at(relation)]; });
-  for (const Class& c : pack_->classes)
-    for (const Typical& typical : c.typical)
-      affected.decides_anew = affected.decides_anew || depends(typical.low_of, params) ||
-                              depends(typical.high_of, params);
   return affected;
+}
+
+/// Those that depend on what is changed.
+std::vector<ExprId> RuleUses::conditions_of(const Rule& rule, const Changes& changes) const {
+  std::vector<ExprId> conditions;
+  for (const auto* ids : {&rule.require, &rule.unless})
+    for (const ExprId id : *ids) {
+      Uses uses = nothing_;
+      add(id, uses);
+      if (is_of(uses, changes)) conditions.push_back(id);
+    }
+  return conditions;
 }
 
 }  // namespace oriel::rules

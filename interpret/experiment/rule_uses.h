@@ -4,6 +4,7 @@
 #include "interpret/pack/pack.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace oriel::rules {
@@ -18,6 +19,9 @@ class RuleUses {
     /// Rules whose conditions or scores say something else; of others the labels of other features
     /// alone may change what they say. By number, ascending.
     std::vector<int> rules;
+    /// By position in `rules`: the conditions of `require` and `unless` that may say something
+    /// else; nothing where the rule has other conditions.
+    std::vector<std::optional<std::vector<ExprId>>> conditions;
     /// Relations that the pack declares lead to others.
     bool has_other_relations = false;
     /// Decisions are made otherwise even where all rules say the same.
@@ -35,19 +39,28 @@ class RuleUses {
   }
 
  private:
-  /// What an expression, a rule or a relation depends on.
+  /// What an expression, a condition, a rule or a relation depends on.
   struct Uses {
     std::vector<bool> params;
     std::vector<bool> relations;
     std::vector<ClassId> classes;
     bool has_facets = false;
   };
+  /// What else another thing says.
+  struct Changes {
+    std::vector<bool> params;
+    std::vector<bool> relations;
+    bool has_other_hosts = false;
+  };
   void add(ExprId id, Uses& uses) const;
-  [[nodiscard]] bool is_of(const Uses& uses, const std::vector<bool>& params,
-                           const std::vector<bool>& relations, bool has_other_hosts) const;
+  [[nodiscard]] static bool is_of(const Uses& uses, const Changes& changes);
+  [[nodiscard]] Changes changes_of(const PackChange& change) const;
+  [[nodiscard]] std::vector<ExprId> conditions_of(const Rule& rule, const Changes& changes) const;
+  [[nodiscard]] bool decides_anew(const PackChange& change, const Changes& changes) const;
   [[nodiscard]] bool depends(ExprId id, const std::vector<bool>& params) const;
 
   const Pack* pack_;
+  Uses nothing_;
   std::vector<Uses> rules_;
   std::vector<bool> is_recursive_;
   /// By position in Pack::relations.

@@ -192,9 +192,9 @@ Explanation Explainer::explain_without_flip(FeatureId feature) const {
   return explanation;
 }
 
-Explanation Explainer::explain_fully(FeatureId feature) const {
+Explanation Explainer::explain_fully(FeatureId feature, const IsGivenUp& is_given_up) const {
   Explanation explanation = explain_without_flip(feature);
-  explanation.flip = find_flip(feature);
+  explanation.flip = find_flip(feature, is_given_up);
   return explanation;
 }
 
@@ -215,8 +215,9 @@ Explanation Explainer::State::explain(Prover& prover, FeatureId feature) {
   return explanation;
 }
 
-FlipSearch Explainer::find_flip(FeatureId feature) const {
-  return rules::find_flip(state_->base->pack(), *state_->table, *state_->graph, feature);
+FlipSearch Explainer::find_flip(FeatureId feature, const IsGivenUp& is_given_up) const {
+  return rules::find_flip(state_->base->pack(), *state_->table, *state_->graph, feature,
+                          is_given_up);
 }
 
 std::vector<std::size_t> find_rules(const RuleBase& base, std::string_view name) {

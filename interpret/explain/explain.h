@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -137,7 +138,12 @@ struct FlipSearch {
   std::size_t tried = 0;
   /// The share of each range up to which all was tried; 1: all of it.
   double reach = 1;
+  /// Somebody gave it up: nothing of it is an answer.
+  bool is_given_up = false;
 };
+
+/// True if nobody waits for an answer any longer; is asked often. Null: somebody does.
+using IsGivenUp = std::function<bool()>;
 
 /// What keeps a rule from holding.
 struct MissReport {
@@ -211,7 +217,8 @@ class Explainer {
   [[nodiscard]] Explanation explain_without_flip(FeatureId feature) const;
 
   /// The same with all of them.
-  [[nodiscard]] Explanation explain_fully(FeatureId feature) const;
+  [[nodiscard]] Explanation explain_fully(FeatureId feature,
+                                          const IsGivenUp& is_given_up = nullptr) const;
 
   /// Moves every param that has a range to where something turns that a rule or a relation asks
   /// of the feature, and to where something turns for others; labels the building with that value,
@@ -219,8 +226,10 @@ class Explainer {
   /// feature itself is tried in any case; of the others as much as comes to four million features
   /// labelled anew. Among scores that change gradually a flip is found if there is one at a quarter
   /// between two turning points. The value is rounded away from the pack's one to as few decimals
-  /// as give the same label, and was labelled with.
-  [[nodiscard]] FlipSearch find_flip(FeatureId feature) const;
+  /// as give the same label, and was labelled with. Ends at once when it is given up
+  /// (FlipSearch::is_given_up).
+  [[nodiscard]] FlipSearch find_flip(FeatureId feature,
+                                     const IsGivenUp& is_given_up = nullptr) const;
 
  private:
   struct State;

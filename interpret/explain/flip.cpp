@@ -22,6 +22,9 @@ constexpr double kSharp = 1e-9;
 /// Values are stated with so many decimals.
 constexpr int kFewestDecimals = 2, kAllDecimals = 6;
 
+/// Nobody waits for the flip any longer.
+struct GivenUp {};
+
 /// A piece of a param's range on one side of the pack's value.
 struct Piece {
   std::size_t param = 0;
@@ -38,21 +41,16 @@ struct Piece {
 
 class FlipFinder {
  public:
-  FlipFinder(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph, int row)
-      : pack_(pack), what_if_(pack, table, graph), row_(row) {}
+  FlipFinder(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph, int row,
+             const IsGivenUp& is_given_up)
+      : pack_(pack), what_if_(pack, table, graph), row_(row), is_given_up_(is_given_up) {}
 
   FlipSearch run() {
-    std::vector<Piece> pieces;
-    for (std::size_t param = 0; param < pack_.params.size(); ++param) cut(param, pieces);
-    std::ranges::sort(pieces, {}, [](const Piece& p) {
-      return std::tuple(p.share, p.is_between, p.param, p.tried);
-    });
-    if (pack_.params.empty() || search_.params == 0) return std::move(search_);
-    said_ = label_of(what_if_.label(0, pack_.params[0].value, at(row_)));
-    for (const Piece& piece : pieces)
-      if (piece.is_own) look_at(piece);
-    search_others(pieces);
-    if (found_) search_.nearest = report();
+    try {
+      search();
+    } catch (const GivenUp&) {
+      search_.is_given_up = true;
+    }
     return std::move(search_);
   }
 
@@ -65,6 +63,24 @@ class FlipFinder {
   };
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  void leave_if_given_up() const {
+    if (is_given_up_ && is_given_up_()) throw GivenUp{};
+  }
+
+  void search() {
+    std::vector<Piece> pieces;
+    for (std::size_t param = 0; param < pack_.params.size(); ++param) cut(param, pieces);
+    std::ranges::sort(pieces, {}, [](const Piece& p) {
+      return std::tuple(p.share, p.is_between, p.param, p.tried);
+    });
+    if (pack_.params.empty() || search_.params == 0) return;
+    said_ = label_of(what_if_.label(0, pack_.params[0].value, at(row_)));
+    for (const Piece& piece : pieces)
+      if (piece.is_own) look_at(piece);
+    search_others(pieces);
+    if (found_) search_.nearest = report();
+  }
 
   [[nodiscard]] ClassId label_of(const std::optional<Choice>& choice) const {
     return choice && choice->rule >= 0 ? pack_.rules[at(choice->rule)].label : kNoClass;
@@ -81,6 +97,7 @@ class FlipFinder {
       search_.without_range.push_back(param.name);
       return;
     }
+    leave_if_given_up();
     ++search_.params;
     if (param.range->first == param.range->second) return;
     const TurningPoints points = turning_points(what_if_, number, row_);
@@ -138,6 +155,7 @@ class FlipFinder {
   }
 
   std::optional<Choice> choice_at(std::size_t param, double value) {
+    leave_if_given_up();
     ++search_.tried;
     return what_if_.label(param, value, at(row_));
   }
@@ -232,6 +250,7 @@ class FlipFinder {
   const Pack& pack_;
   WhatIf what_if_;
   int row_;
+  const IsGivenUp& is_given_up_;
   ClassId said_ = kNoClass;
   std::optional<Found> found_;
   FlipSearch search_;
@@ -240,8 +259,8 @@ class FlipFinder {
 }  // namespace
 
 FlipSearch find_flip(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph,
-                     FeatureId feature) {
-  return FlipFinder(pack, table, graph, feature.value).run();
+                     FeatureId feature, const IsGivenUp& is_given_up) {
+  return FlipFinder(pack, table, graph, feature.value, is_given_up).run();
 }
 
 }  // namespace oriel::rules

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "interpret/evaluate/evaluation_context.h"
+#include "interpret/experiment/relabelling.h"
+#include "interpret/experiment/rule_uses.h"
 #include "interpret/explain/explain.h"
-#include "interpret/labelling/labelling.h"
+#include "interpret/labelling/candidates.h"
 #include "interpret/pack/pack.h"
 #include "interpret/params/settable_pack.h"
 
@@ -12,8 +14,8 @@
 
 namespace oriel::rules {
 
-/// Labels one building with the params of a pack at other values than the pack says. The table and
-/// the graph must outlive it.
+/// Labels one building with the params of a pack at other values than the pack says. The pack, the
+/// table and the graph must outlive it.
 class WhatIf {
  public:
   WhatIf(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
@@ -23,24 +25,22 @@ class WhatIf {
   std::optional<Choice> label(std::size_t param, double value, std::size_t row);
 
   /// The pack as it says, which may be changed for a while, and the building as it was labelled
-  /// with it.
-  [[nodiscard]] Pack& pack() { return pack_.pack(); }
-  [[nodiscard]] const EvaluationContext& context() const { return *context_; }
+  /// with it; valid until something is labelled.
+  [[nodiscard]] Pack& pack() { return varied_.pack(); }
+  [[nodiscard]] const EvaluationContext& context() { return relabelling_.context(); }
 
  private:
-  std::vector<Choice> run(EvaluationContext& context) const;
+  const RuleUses::Affected& affected_by(std::size_t param);
 
-  SettablePack pack_;
-  const FeatureTable* table_;
-  const FeatureGraph* graph_;
-  /// As the pack says, and the one that is labelled anew with another value.
-  std::optional<EvaluationContext> context_, changed_;
-  /// `changed_` has relations or kinds of host facets of another value.
-  bool is_laid_out_anew_ = false;
+  SettablePack varied_;
+  RuleUses uses_;
+  /// By param, as soon as it was asked.
+  std::vector<std::optional<RuleUses::Affected>> affected_;
+  Relabelling relabelling_;
 };
 
 /// Explainer::find_flip.
 FlipSearch find_flip(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph,
-                     FeatureId feature);
+                     FeatureId feature, const IsGivenUp& is_given_up);
 
 }  // namespace oriel::rules

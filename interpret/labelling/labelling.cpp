@@ -55,6 +55,35 @@ std::optional<double> score(const Pack& pack, const Rule& rule, Evaluator& evalu
   return sum / weight;
 }
 
+std::vector<Judgement> all_of(std::span<const int> rows) {
+  std::vector<Judgement> judged(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) judged[i].row = rows[i];
+  return judged;
+}
+
+/// Takes those away that do not fulfil the conditions which are asked.
+template <class IsAsked>
+void ask(const Rule& rule, Evaluator& evaluator, std::vector<Judgement>& judged, IsAsked is_asked) {
+  for (const ExprId id : rule.require)
+    if (is_asked(id)) evaluator.narrow(judged, id);
+  for (const ExprId id : rule.unless) {
+    if (!is_asked(id)) continue;
+    std::erase_if(judged, [&](const Judgement& judgement) {
+      return evaluator.truth(id, rows_of(judgement.row)) == Truth::yes;
+    });
+  }
+}
+
+void ask_score(const Pack& pack, const Rule& rule, Evaluator& evaluator,
+               std::vector<Judgement>& judged) {
+  if (rule.score.empty()) return;
+  for (Judgement& judgement : judged) {
+    const auto scored = score(pack, rule, evaluator, rows_of(judgement.row));
+    if (!scored) judgement.truth = Truth::unknown;
+    judgement.score = scored.value_or(0);
+  }
+}
+
 }  // namespace
 
 Labelling::Labelling(const Pack& pack, EvaluationContext& context, const KnownJudgements* known)
@@ -243,19 +272,26 @@ double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
 
 std::vector<Judgement> judge(const Pack& pack, const Rule& rule, Evaluator& evaluator,
                              std::span<const int> rows) {
-  std::vector<Judgement> judged(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) judged[i].row = rows[i];
-  for (const ExprId id : rule.require) evaluator.narrow(judged, id);
-  for (const ExprId id : rule.unless)
-    std::erase_if(judged, [&](const Judgement& judgement) {
-      return evaluator.truth(id, rows_of(judgement.row)) == Truth::yes;
-    });
-  if (rule.score.empty()) return judged;
-  for (Judgement& judgement : judged) {
-    const auto scored = score(pack, rule, evaluator, rows_of(judgement.row));
-    if (!scored) judgement.truth = Truth::unknown;
-    judgement.score = scored.value_or(0);
-  }
+  const auto all = [](ExprId) { return true; };
+  std::vector<Judgement> judged = all_of(rows);
+  ask(rule, evaluator, judged, all);
+  ask_score(pack, rule, evaluator, judged);
+  return judged;
+}
+
+std::vector<Judgement> judge_without(const Rule& rule, Evaluator& evaluator,
+                                     std::span<const int> rows,
+                                     const std::vector<ExprId>& conditions) {
+  std::vector<Judgement> judged = all_of(rows);
+  ask(rule, evaluator, judged, [&](ExprId id) { return !std::ranges::count(conditions, id); });
+  return judged;
+}
+
+std::vector<Judgement> judge_on(const Pack& pack, const Rule& rule, Evaluator& evaluator,
+                                std::vector<Judgement> judged,
+                                const std::vector<ExprId>& conditions) {
+  ask(rule, evaluator, judged, [&](ExprId id) { return std::ranges::count(conditions, id) > 0; });
+  ask_score(pack, rule, evaluator, judged);
   return judged;
 }
 

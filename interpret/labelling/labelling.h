@@ -17,6 +17,18 @@ namespace oriel::rules {
 std::vector<Judgement> judge(const Pack& pack, const Rule& rule, Evaluator& evaluator,
                              std::span<const int> rows);
 
+/// The same of features of which it is known already what they say to the conditions that are not
+/// in `conditions`: those of `judged`, with what came of that.
+std::vector<Judgement> judge_on(const Pack& pack, const Rule& rule, Evaluator& evaluator,
+                                std::vector<Judgement> judged,
+                                const std::vector<ExprId>& conditions);
+
+/// The features that the rule's conditions leave, its score and those in `conditions` left aside;
+/// judge_on() goes on from there.
+std::vector<Judgement> judge_without(const Rule& rule, Evaluator& evaluator,
+                                     std::span<const int> rows,
+                                     const std::vector<ExprId>& conditions);
+
 /// 0…1, or NaN where the term is unknown: how the values of a term are judged.
 double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
                   const FeatureRows& rows);

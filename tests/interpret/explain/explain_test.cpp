@@ -563,6 +563,30 @@ smallest flip  sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground              
     CHECK(flips > 20);
   }
 
+  TEST_CASE("a flip that nobody waits for is given up at once") {
+    const Scene scene = window_with_a_low_sill();
+    const RuleBase base = load(kPack);
+    const FeatureTable table = scene.table();
+    const FeatureGraph graph = scene.graph();
+    const Interpretation said = interpret(base, table, graph);
+    const Explainer explainer(base, table, graph, said);
+    int asked = 0;
+    const auto whole = explainer.find_flip(FeatureId{0}, [&] { return ++asked < 0; });
+    CHECK_FALSE(whole.is_given_up);
+    REQUIRE(whole.nearest);
+    CHECK(asked > 2);
+    for (int most = 0; most < asked; ++most) {
+      int count = 0;
+      const auto search = explainer.find_flip(FeatureId{0}, [&] { return count++ == most; });
+      CHECK(search.is_given_up);
+      CHECK_FALSE(search.nearest);
+      CHECK(count == most + 1);
+    }
+    const auto explained = explainer.explain_fully(FeatureId{0}, [] { return true; });
+    CHECK(explained.flip.value().is_given_up);
+    CHECK(explained.nearest_miss);
+  }
+
   TEST_CASE("explanations are written as JSON") {
     Scene scene;
     scene.add({{"a", 1.5}});
