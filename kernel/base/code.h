@@ -56,6 +56,11 @@
   X(E153, 0, "A correction of something that is not there") \
   X(E154, 0, "Corrections that contradict each other") \
   X(E155, 0, "A correction with an old feature id") \
+  X(E160, 0, "An unknown coordinate reference system") \
+  X(E161, 0, "No coordinate reference system") \
+  X(E162, 0, "Heights without a reference") \
+  X(E163, 0, "Buildings too far apart") \
+  X(E164, 0, "The folder is not empty") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that does not exist") \
