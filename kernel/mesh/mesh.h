@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct MeshFeature {
   std::string label;
   /// The feature's id, or empty.
   std::string id;
+  /// How sure the label is, from 0 to 1, and the rule that gave it; of features without a verdict
+  /// nothing.
+  std::optional<double> score{};
+  std::string rule{};
 };
 
 /// A planar polygon to be meshed, ring 0 the outer one, counter-clockwise about `normal`.
