@@ -7,13 +7,13 @@ import {words} from '../strings';
 
 /** The first picture comes soon: its batches are small, and grow. */
 const kFirstFeatures = 300;
-const kMostFeatures = 3000;
-const kMostTogether = 40;
+const kMostFeatures = 6000;
+const kMostTogether = 100;
 /** Corners of polygons that are kept; each takes some 80 bytes of the page and as many of the graphics card. */
-const kMostCorners = 4_000_000;
+const kMostCorners = 6_000_000;
 /** Until something is known: of generated houses. */
 const kCornersOfFeature = 30;
-/** Buildings that are smaller in the picture than these pixels stand as boxes. */
+/** Where there are too many, buildings that are smaller in the picture than these pixels stand as boxes. */
 const kLeastPx = 3;
 /** What comes in place of something else is so much larger in the picture: nothing comes and goes all the time. */
 const kClearlyLarger = 1.5;
@@ -85,7 +85,9 @@ export class ShapeLoader {
     const {buildings, geometry} = this.app.store.value;
     const candidates = this.bySize(buildings.map((_, number) => number).filter(number => this.canCome(number)));
     const best = candidates[0];
-    if (!best || best.size < kLeastPx) return [];
+    if (!best) return [];
+    const all = candidates.reduce((sum, {number}) => sum + buildings[number]!.features, 0);
+    if (best.size < kLeastPx && this.corners + this.estimate(all) > kMostCorners) return [];
     const batch = this.around(best.number);
     const more = this.estimate(batch.reduce((sum, number) => sum + buildings[number]!.features, 0));
     if (this.corners + more <= kMostCorners || geometry.size === 0) return batch;

@@ -59,8 +59,9 @@ export class BuildingBoxes {
     this.mesh.visible = this.placed.some(({building}) => !away.has(building));
   }
 
-  paint(paint: Paint): void {
-    if (!this.mesh || (paint.heat === this.heat && this.mesh === this.painted)) return;
+  /** False if all are as they were. */
+  paint(paint: Paint): boolean {
+    if (!this.mesh || (paint.heat === this.heat && this.mesh === this.painted)) return false;
     this.heat = paint.heat;
     this.painted = this.mesh;
     this.placed.forEach(({building}, i) => {
@@ -68,6 +69,7 @@ export class BuildingBoxes {
       this.mesh!.setColorAt(i, heat === undefined ? kPlain : new Color(heatColour(heat)));
     });
     this.mesh.instanceColor!.needsUpdate = true;
+    return this.mesh.visible;
   }
 
   hit(ray: Ray): {building: number; distance: number; point: Vector3} | null {

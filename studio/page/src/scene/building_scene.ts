@@ -25,8 +25,8 @@ ColorManagement.enabled = false;
 /** Three calls a chunk and two more with a cut, so at most 180 for all, however many buildings there are. */
 const kMostChunks = 35;
 /** Chunks that are brought together become no larger than this, unless there would be too many. */
-const kChunkCorners = 120_000;
-const kChunkBuildings = 40;
+const kChunkCorners = 200_000;
+const kChunkBuildings = 100;
 
 export class BuildingScene {
   readonly element: HTMLElement;
@@ -69,6 +69,7 @@ export class BuildingScene {
     } catch { /* said by the shell */ }
     this.isDrawing = this.renderer !== null;
     if (!this.renderer) return;
+    this.renderer.debug.checkShaderErrors = false;  // asking for them waits for the compiler
     this.renderer.outputColorSpace = LinearSRGBColorSpace;  // colours are taken as they are
     this.element.append(this.renderer.domElement);
     new ResizeObserver(() => this.resize()).observe(this.element);
@@ -138,9 +139,9 @@ export class BuildingScene {
     const hasNewLooks = paint.looks !== this.paint.looks || paint.unknown !== this.paint.unknown;
     this.paint = paint;
     if (hasNewLooks) this.painter.setLooks(paint);
-    this.painter.paint(paint, buildings);
-    this.boxes.paint(paint);
-    this.requestRender();
+    const areOther = this.painter.paint(paint, buildings);
+    const areBoxesOther = this.boxes.paint(paint);
+    if (hasNewLooks || areOther || areBoxesOther) this.requestRender();
   }
 
   setColours(colours: {ground: string; accent: string; change: string; edge: string; brightness: number}): void {
@@ -319,7 +320,7 @@ export class BuildingScene {
         const number = chunk.mesh.geometry.getAttribute('number').getX(found.face!.a);
         const placed = placedAt(chunk, number);
         if (this.isAway(placed, number, found.point)) continue;
-        best = {distance: found.distance, hit: this.isInside(ray.ray, found.face!.normal, placed) ? this.hitOfCap(placed, ray.ray) :
+        best = {distance: found.distance, hit: this.isInside(ray.ray, new Vector3().fromBufferAttribute(chunk.mesh.geometry.getAttribute('normal'), found.face!.a), placed) ? this.hitOfCap(placed, ray.ray) :
           {selection: this.selectionOf(placed, number), point: found.point}};
       }
     }

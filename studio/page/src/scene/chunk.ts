@@ -62,12 +62,14 @@ class ChunkBuilder {
   private readonly positions: Float32Array;
   private readonly normals: Int8Array;
   private readonly numbers: Float32Array;
-  private readonly index: number[] = [];
-  private readonly linePositions: number[] = [];
-  private readonly lineSides: number[] = [];
+  private readonly index: Uint32Array;
+  private readonly linePositions: Float32Array;
+  private readonly lineSides: Float32Array;
   private readonly placed: PlacedShape[] = [];
-  /** Corners and polygons that are there by now. */
+  /** Corners, entries of the index, lines and polygons that are there by now. */
   private corner = 0;
+  private indices = 0;
+  private lines = 0;
   private number: number;
 
   constructor(shapes: readonly Shape[], private readonly begin: number) {
@@ -75,6 +77,11 @@ class ChunkBuilder {
     this.positions = new Float32Array(3 * corners);
     this.normals = new Int8Array(4 * corners);
     this.numbers = new Float32Array(corners);
+    // A polygon of n corners and h holes has n + 2 h - 2 triangles, and no more edges than corners.
+    const rings = shapes.reduce((sum, shape) => sum + shape.corner_ends.length, 0);
+    this.index = new Uint32Array(3 * (corners + 2 * rings));
+    this.linePositions = new Float32Array(6 * corners);
+    this.lineSides = new Float32Array(4 * corners);
     this.number = begin;
   }
 
@@ -95,17 +102,25 @@ class ChunkBuilder {
         for (let k = 0; k < 3; ++k) this.normals[4 * i + k] = Math.round(127 * normal[k]!);
       this.addTriangles(shape, firstRing, lastRing, first, normal);
     }
-    for (const {a, b, first, second} of creasesOf(shape, normals)) {
-      this.addEnd(shape, a);
-      this.addEnd(shape, b);
-      this.lineSides.push(this.number + first, this.number + second, this.number + first, this.number + second);
-    }
+    creasesOf(shape, normals, (a, b, first, second) => {
+      const line = this.lines++;
+      this.putEnd(shape, a, 6 * line);
+      this.putEnd(shape, b, 6 * line + 3);
+      this.lineSides[4 * line] = this.lineSides[4 * line + 2] = this.number + first;
+      this.lineSides[4 * line + 1] = this.lineSides[4 * line + 3] = this.number + second;
+    });
     this.placed.push({shape, begin: this.number, isRoof});
     this.number += polygons;
   }
 
-  private addEnd({base_mm, vertices_mm}: Shape, vertex: number): void {
-    for (let k = 0; k < 3; ++k) this.linePositions.push((base_mm[k]! + vertices_mm[3 * vertex + k]!) / 1000);
+  private putEnd({base_mm, vertices_mm}: Shape, vertex: number, at: number): void {
+    for (let k = 0; k < 3; ++k) this.linePositions[at + k] = (base_mm[k]! + vertices_mm[3 * vertex + k]!) / 1000;
+  }
+
+  private addTriangle(a: number, b: number, c: number): void {
+    this.index[this.indices++] = a;
+    this.index[this.indices++] = b;
+    this.index[this.indices++] = c;
   }
 
   private addCorners({base_mm, vertices_mm, corners}: Shape, from: number, to: number, number: number): void {
@@ -135,9 +150,13 @@ class ChunkBuilder {
   private addTriangles(shape: Shape, firstRing: number, lastRing: number, first: number, normal: Point): void {
     const count = this.corner - first;
     if (count < 3) return;
-    if (lastRing === firstRing + 1 && count === 3) this.index.push(first, first + 1, first + 2);
-    else if (lastRing === firstRing + 1 && count === 4 && this.isConvex(first, normal)) this.index.push(first, first + 1, first + 2, first, first + 2, first + 3);
-    else for (const i of triangulate(this.ringsAt(shape, firstRing, lastRing, first), planeAxes(normal))) this.index.push(first + i);
+    if (lastRing === firstRing + 1 && count === 3) this.addTriangle(first, first + 1, first + 2);
+    else if (lastRing === firstRing + 1 && count === 4 && this.isConvex(first, normal)) {
+      this.addTriangle(first, first + 1, first + 2);
+      this.addTriangle(first, first + 2, first + 3);
+    } else {
+      for (const i of triangulate(this.ringsAt(shape, firstRing, lastRing, first), planeAxes(normal))) this.index[this.indices++] = first + i;
+    }
   }
 
   /** True if the four corners turn the same way everywhere, seen against the normal. */
@@ -182,16 +201,10 @@ class ChunkBuilder {
     faces.setAttribute('position', new BufferAttribute(this.positions, 3));
     faces.setAttribute('normal', new BufferAttribute(this.normals, 4, true));
     faces.setAttribute('number', new BufferAttribute(this.numbers, 1));
-    const triangles = orderBy(this.index.length / 3, i => this.areaOf(i));
-    const index = new Uint32Array(this.index.length);
-    triangles.order.forEach((from, to) => { for (let k = 0; k < 3; ++k) index[3 * to + k] = this.index[3 * from + k]!; });
-    faces.setIndex(new BufferAttribute(index, 1));
-    const edges = orderBy(this.linePositions.length / 6, i => this.lengthOf(i));
-    const linePositions = new Float32Array(this.linePositions.length), lineSides = new Float32Array(this.lineSides.length);
-    edges.order.forEach((from, to) => {
-      for (let k = 0; k < 6; ++k) linePositions[6 * to + k] = this.linePositions[6 * from + k]!;
-      for (let k = 0; k < 4; ++k) lineSides[4 * to + k] = this.lineSides[4 * from + k]!;
-    });
+    const triangles = orderBy(this.indices / 3, i => this.areaOf(i));
+    faces.setIndex(new BufferAttribute(inOrder(this.index, triangles.order, 3), 1));
+    const edges = orderBy(this.lines, i => this.lengthOf(i));
+    const linePositions = inOrder(this.linePositions, edges.order, 6), lineSides = inOrder(this.lineSides, edges.order, 4);
     const lines = new BufferGeometry();
     lines.setAttribute('position', new BufferAttribute(linePositions, 3));
     lines.setAttribute('sides', new BufferAttribute(lineSides, 2));
@@ -204,33 +217,41 @@ class ChunkBuilder {
     backs.renderOrder = fronts.renderOrder = -2;
     return {
       mesh: new Mesh(faces, materials.faces), lines: new LineSegments(lines, materials.lines), hiddenLines, backs, fronts, shapes: this.placed,
-      begin: this.begin, end: this.number, triangles: this.index.length / 3, bvh: null, areas: triangles.values, lengths: edges.values
+      begin: this.begin, end: this.number, triangles: this.indices / 3, bvh: null, areas: triangles.values, lengths: edges.values
     };
   }
 }
 
 /** The places of values ordered by their sizes, the largest first, as exactly as leaving out needs it (a quarter of an octave), and
-    these sizes in that order. */
+    these sizes in that order: the exponent and two more bits of a float say it. */
 function orderBy(count: number, valueOf: (i: number) => number): {order: Uint32Array; values: Float32Array} {
-  const kSteps = 4, kFloor = 2 ** -14;
-  const classes = new Uint16Array(count);
-  let most = 0;
-  for (let i = 0; i < count; ++i) {
-    const size = Math.max(0, Math.round(kSteps * Math.log2(Math.max(valueOf(i), kFloor) / kFloor)));
-    classes[i] = size;
-    most = Math.max(most, size);
-  }
-  const begins = new Uint32Array(most + 2);
-  for (const c of classes) ++begins[most - c + 1]!;
-  for (let c = 1; c < begins.length; ++c) begins[c]! += begins[c - 1]!;
+  const kShift = 21, kSteps = 1 << (32 - kShift);
+  const sizes = new Float32Array(count);
+  for (let i = 0; i < count; ++i) sizes[i] = valueOf(i);
+  const bits = new Uint32Array(sizes.buffer);
+  const begins = new Uint32Array(kSteps + 1);
+  for (let i = 0; i < count; ++i) ++begins[kSteps - (bits[i]! >>> kShift)]!;
+  for (let step = 1; step <= kSteps; ++step) begins[step]! += begins[step - 1]!;
   const order = new Uint32Array(count);
   const values = new Float32Array(count);
-  classes.forEach((c, i) => {
-    const place = begins[most - c]!++;
+  for (let i = 0; i < count; ++i) {
+    const place = begins[kSteps - 1 - (bits[i]! >>> kShift)]!++;
     order[place] = i;
-    values[place] = kFloor * 2 ** (c / kSteps);
-  });
+    values[place] = sizes[i]!;
+  }
+  // As they stand, sizes of a step are in no order: it counts with its smallest.
+  const rounded = new Uint32Array(values.buffer);
+  for (let i = 0; i < count; ++i) rounded[i] = rounded[i]! >>> kShift << kShift;
   return {order, values};
+}
+
+function inOrder<List extends Float32Array | Uint32Array>(list: List, order: Uint32Array, width: number): List {
+  const ordered = list.slice(0, width * order.length) as List;
+  for (let to = 0; to < order.length; ++to) {
+    const from = width * order[to]!;
+    for (let k = 0; k < width; ++k) ordered[width * to + k] = list[from + k]!;
+  }
+  return ordered;
 }
 
 /** The tree that finds what a ray hits, made when it is first asked for. */

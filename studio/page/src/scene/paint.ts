@@ -89,19 +89,22 @@ export class Painter {
     old.dispose();
   }
 
-  /** Writes the entries of some buildings, or of all. */
-  paint(paint: Paint, buildings?: Iterable<number>): void {
+  /** Writes the entries of some buildings, or of all. False if all are as they were. */
+  paint(paint: Paint, buildings?: Iterable<number>): boolean {
     const texture: DataTexture = this.uniforms.state.value;
+    let isOther = false;
     const found = byBuilding(paint.found), changed = byBuilding(paint.changed);
     for (const building of buildings ?? this.placed.keys()) {
       const placed = this.placed.get(building);
-      if (placed) paintBuilding(paint, placed, found, changed, texture.image.data as Uint8Array);
+      if (placed) isOther = paintBuilding(paint, placed, found, changed, texture.image.data as Uint8Array) || isOther;
     }
-    texture.needsUpdate = true;
+    if (isOther) texture.needsUpdate = true;
+    return isOther;
   }
 }
 
-function paintBuilding(paint: Paint, {shape, begin, isRoof}: PlacedShape, found: PartSet, changed: PartSet, data: Uint8Array): void {
+function paintBuilding(paint: Paint, {shape, begin, isRoof}: PlacedShape, found: PartSet, changed: PartSet, data: Uint8Array): boolean {
+  let isOther = false;
   const labels = paint.labels.get(shape.number);
   const heat = paint.heat?.get(shape.number);
   const heatSlot = heat === undefined ? 0 : kSlot.heat + Math.round(Math.max(0, Math.min(1, heat)) * (kSlot.heats - 1));
@@ -121,9 +124,13 @@ function paintBuilding(paint: Paint, {shape, begin, isRoof}: PlacedShape, found:
     if (hovered && isMeant(shape, polygon, hovered)) flags |= kFlag.hover;
     if (found.size > 0) flags |= liesInOneOf(shape, polygon, foundHere) ? kFlag.found : kFlag.faint;
     if (changedHere && liesInOneOf(shape, polygon, changedHere)) flags |= kFlag.changed;
-    data[4 * (begin + polygon)] = slot;
-    data[4 * (begin + polygon) + 1] = flags;
+    const at = 4 * (begin + polygon);
+    if (data[at] === slot && data[at + 1] === flags) continue;
+    data[at] = slot;
+    data[at + 1] = flags;
+    isOther = true;
   }
+  return isOther;
 }
 
 /** Of a polygon of the chosen building; a building as a whole marks none of its polygons. */

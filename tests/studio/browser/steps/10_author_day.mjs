@@ -25,6 +25,8 @@ export async function run({page, studio: opened, check, picture}) {
     ['an empty editor offers a beginning that labels windows and doors', () => author.beginPack(page, picture)],
     ['a mistake is underlined while the labels stay, and its fix mends it', () => author.mendMistake(page, picture)],
     ['completion inside an expression knows attributes', () => author.complete(page, picture)],
+    ['the smallest change that flips a label is told, and a click makes it',
+      () => author.flip(page, picture, async feature => (await opened.ask('explain', {building: 0, feature})).flip !== null)],
     ['a threshold is dragged, F1 falls, and the labels that changed are listed', async () => { before = await author.dragThreshold(page, picture); }],
     ['a proposal changes the pack when it is accepted', () => author.learn(page, picture)],
     ['the curve leads back to the peak, and undo takes one step', () => author.findPeak(page, before)],
