@@ -38,6 +38,11 @@ class Studio:
 
     def ask(self, verb, body):
         """The answer, its bytes and the seconds it took to come and to be read."""
+        data, seconds = self.ask_bytes(verb, body)
+        return json.loads(data), len(data), seconds
+
+    def ask_bytes(self, verb, body):
+        """The answer as it comes, and the seconds it took."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=600)
         headers = {"X-Oriel-Token": self.token, "Content-Type": "application/json"}
         text = json.dumps(body)
@@ -48,7 +53,7 @@ class Studio:
         seconds = time.perf_counter() - begin
         if answer.status not in (200, 409):
             sys.exit(f"{verb}: {answer.status} {data[:300].decode()}")
-        return json.loads(data), len(data), seconds
+        return data, seconds
 
     def type(self, text, params=None, everything=False):
         """A keystroke: the pack has another text."""
@@ -88,12 +93,10 @@ def measure_opening(studio):
     begin = time.perf_counter()
     state, _, _ = studio.ask("state", {})
     answer, _, labelled = studio.type(state["pack"]["text"], everything=True)
-    shown = 0
     size = 0
-    for first in range(0, len(state["buildings"]), 100):
-        numbers = [b["number"] if "number" in b else i for i, b in list(enumerate(state["buildings"]))[first:first + 100]]
-        _, count, _ = studio.ask("geometry", {"buildings": numbers})
-        size += count
+    count = len(state["buildings"])
+    for first in range(0, count, 60):
+        size += len(studio.ask_bytes("geometry", {"buildings": list(range(first, min(first + 60, count)))})[0])
     shown = time.perf_counter() - begin
     features = sum(b["features"] for b in state["buildings"] if b.get("features"))
     print(f"  {len(state['buildings'])} buildings, {features} features; read and segmented in {loaded:.2f} s")

@@ -131,7 +131,7 @@ export class FileSource implements Source {
     };
   }
 
-  language = lacks; curve = lacks; correct = lacks; corrections = lacks; ask = lacks; learn = lacks; scale = lacks; save = lacks; disk = lacks;
+  language = lacks; curve = lacks; correct = lacks; corrections = lacks; ask = lacks; learn = lacks; scale = lacks; scaleProgress = lacks; stopScale = lacks; acceptProposal = lacks; save = lacks; disk = lacks;
   truth = lacks;
 }
 

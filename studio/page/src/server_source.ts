@@ -109,6 +109,9 @@ export class ServerSource implements Source {
   ask(count: number) { return this.post('ask', {count}); }
   learn(question: LearnQuestion) { return this.post('learn', question); }
   scale(question: ScaleQuestion, signal: AbortSignal | null = null) { return this.post('scale', question, signal); }
+  scaleProgress() { return this.post('scale', {progress: true}); }
+  stopScale() { return this.post('scale', {stop: true}); }
+  acceptProposal(index: number, text: string) { return this.post('learn', {accept: index, text}); }
   save(question: SaveQuestion) { return this.post('save', question); }
   disk() { return this.post('disk', {}); }
   truth(buildings: number[]) { return this.post('truth', {buildings}); }

@@ -121,11 +121,14 @@ export interface SearchAnswer { parts: Part[]; buildings: number[]; findings: Fi
 export interface CorrectQuestion { building: number; feature: number; class: string | null; by?: string; why?: string }
 export interface CorrectionsAnswer { path: string; list: Correction[] }
 export interface AskAnswer { parts: {building: number; feature: number; sentence: string}[] }
+/** A change of a rule that would pay: `text` is the whole pack with it alone, '' where it cannot be made, which `why_not` explains. */
+export interface RuleProposal { what: string; rule: string; gain: number; held_out_gain: number; yaml?: string; text?: string; why_not?: string }
+export interface AcceptAnswer { text: string; why_not: string }
 export interface LearnQuestion { objective?: string; params?: string[]; propose?: boolean; stop?: boolean }
 export interface LearnAnswer {
   state: 'idle' | 'running' | 'done' | 'failed'; done: number; all: number; text: string; summary: string; issues: Issue[];
   /** The whole report, as `oriel learn` prints it, and changes of rules that would pay; nothing of them is in `text`. */
-  report?: string; proposals?: {what: string; rule: string; gain: number; held_out_gain: number}[];
+  report?: string; proposals?: RuleProposal[];
 }
 
 // ---- scale, save, disk, truth ----
@@ -134,7 +137,11 @@ export interface ScaledPolygon { source: number; rings: number[][]; feature: num
 export interface ScaleAnswer {
   vertices_mm: number[]; polygons: ScaledPolygon[]; outcomes: {feature: number; operator: string; sentence: string}[];
   issues: Issue[]; is_valid: boolean;
+  /** What a reader should know of how it was drawn; may be empty. */
+  note?: string;
 }
+/** What a scale that is drawn is at: labelling, drawing, checking or repairing. */
+export interface ScaleProgress { state: 'idle' | 'running'; stage?: string }
 export type ScaleQuestion = {building: number; scale: number} | {building: number; lod: string};
 export interface SaveQuestion { text: string; hash: string; path?: string; force?: boolean }
 export interface SaveAnswer { hash: string; path: string }
@@ -175,7 +182,12 @@ export interface Source {
   corrections(): Promise<CorrectionsAnswer>;
   ask(count: number): Promise<AskAnswer>;
   learn(question: LearnQuestion): Promise<LearnAnswer>;
+  /** Makes the change of a proposal, by its place in the list, in a text of the pack. */
+  acceptProposal(index: number, text: string): Promise<AcceptAnswer>;
   scale(question: ScaleQuestion, signal?: AbortSignal): Promise<ScaleAnswer>;
+  scaleProgress(): Promise<ScaleProgress>;
+  /** Ends the scale that is drawn; who asked for it gets a superseded refusal. */
+  stopScale(): Promise<unknown>;
   save(question: SaveQuestion): Promise<SaveAnswer>;
   disk(): Promise<DiskAnswer>;
   truth(buildings: number[]): Promise<TruthAnswer>;

@@ -210,6 +210,7 @@ export const words = {
     report: 'Report', rules: 'Changes of rules that would pay',
     gain: (all: number, heldOut: number) => `F1 +${all.toFixed(3)}, +${heldOut.toFixed(3)} on buildings held out`,
     proposal: 'The proposed pack', leaveOut: 'Leave out', accept: 'Accept', reject: 'Reject', accepted: 'Accepted. Undo takes it back.', rejected: 'Rejected.',
+    showDiff: 'What it changes', acceptRule: 'Make this change', acceptedRule: (rule: string) => `${rule} is changed. Undo takes it back.`,
     outdated: 'The pack has changed since the search began. Learn again.'
   },
   scale: {
@@ -217,6 +218,7 @@ export const words = {
     hint: 'Move the slider to see the building as a map of that scale has it, by the entries of generalise: in the pack.',
     polygons: (before: number, after: number) => `${before.toLocaleString('en')} → ${count(after, 'polygon', 'polygons')}`,
     drawing: (name: string, stop: string) => `Drawing ${name} at ${stop} …`, seconds: (s: number) => `${s < 10 ? s.toFixed(1) : Math.round(s)} s`,
+    stages: {labelling: 'labelling', drawing: 'drawing', checking: 'checking the solid', repairing: 'repairing the solid'} as Record<string, string>,
     cancel: 'Cancel', cancelHint: 'Keep the picture as it is (Esc)', cancelled: 'Cancelled. The picture is as it was.',
     long: 'A large building takes up to a minute the first time. You can go on working, or choose another scale.',
     valid: 'A valid solid.', invalid: 'Not a valid solid.', kept: 'kept', nothing: 'Nothing had to be done.'

@@ -32,6 +32,16 @@ export function proposalView(original: string, proposal: string): {element: HTML
   return {element: el('div', {class: 'proposal-text'}, view.dom), textOf: () => view.state.doc.toString(), destroy: () => view.destroy()};
 }
 
+/** What a change makes of a text, to read. */
+export function changeView(original: string, changed: string): {element: HTMLElement; destroy: () => void} {
+  const view = new EditorView({
+    doc: changed,
+    extensions: [packLook(), EditorView.contentAttributes.of({'aria-label': words.learn.showDiff, tabindex: '0'}), EditorView.editable.of(false),
+      unifiedMergeView({original, mergeControls: false, collapseUnchanged: kCollapse})]
+  });
+  return {element: el('div', {class: 'proposal-text'}, view.dom), destroy: () => view.destroy()};
+}
+
 /** Two texts side by side: the left one stays, the right one is edited, and changes can be taken over from the left. */
 export function sideBySide(left: string, right: string, names: [left: string, right: string]) {
   const named = (name: string) => EditorView.contentAttributes.of({'aria-label': name});

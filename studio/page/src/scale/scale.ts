@@ -37,11 +37,12 @@ class ScalePanel {
   constructor(private readonly app: App) {
     this.slider.addEventListener('input', () => this.choose(this.stops[Number(this.slider.value)]!));
     this.beside.addEventListener('change', () => this.placeDivider());
-    this.waiting = new Waiting(app.scene.host, () => this.cancel());
+    this.waiting = new Waiting(app.scene.host, () => this.cancel(), async () => (await app.source.scaleProgress()).stage ?? '');
     this.element = el('div', {class: 'panel scale'}, this.title,
       el('div', {class: 'scale-choice'}, this.slider, this.ticks, this.lods), this.waiting.element, el('label', {class: 'check'}, this.beside, words.scale.beside), this.facts, this.outcomes);
     app.store.watch(['scales', 'lods'], () => this.fillStops());
     app.store.watch(['selection'], () => this.followSelection());
+    app.store.watch(['features'], () => this.nameOutcomes());
     authorOf(app).loop.onAnswer(() => { if (!isOriginal(this.stop) && app.store.value.is_good) this.askSoon(); });
     this.say(null);
   }
@@ -94,7 +95,7 @@ class ScalePanel {
   }
 
   private showOriginal(): void {
-    this.endAsking();
+    this.endAsking(true);
     this.drawn = this.stop;
     this.divider?.hide();
     this.say(null);
@@ -107,8 +108,10 @@ class ScalePanel {
     this.timer = setTimeout(() => void this.ask(), kPause_ms);
   }
 
-  private endAsking(): void {
+  /** Another scale ends the one at work by itself. */
+  private endAsking(isStopped = false): void {
     clearTimeout(this.timer);
+    if (isStopped && this.asking) void this.app.source.stopScale().catch(() => undefined);
     this.asking?.abort();
     this.asking = null;
     this.waiting.end();
@@ -117,7 +120,7 @@ class ScalePanel {
 
   /** Back to what the picture shows. */
   private cancel(): void {
-    this.endAsking();
+    this.endAsking(true);
     this.stop = this.drawn;
     this.mark();
     this.app.store.say(words.scale.cancelled);
@@ -179,6 +182,7 @@ class ScalePanel {
     replace(this.facts,
       el('p', {}, words.scale.polygons(before, answer.polygons.length)),
       el('p', {class: answer.is_valid ? 'good' : 'grave'}, answer.is_valid ? words.scale.valid : words.scale.invalid),
+      answer.note ? el('p', {class: 'note'}, answer.note) : null,
       ...answer.issues.map(issue => el('p', {class: issue.severity === 'error' ? 'grave small' : 'quiet small'}, issue.sentence)));
   }
 
@@ -193,6 +197,14 @@ class ScalePanel {
     if (answer.outcomes.length === 0) replace(this.outcomes, el('p', {class: 'quiet'}, words.scale.nothing));
   }
 
+  /** Names have come. */
+  private nameOutcomes(): void {
+    for (const row of this.outcomes.querySelectorAll<HTMLElement>('[data-feature]')) {
+      const feature = this.app.feature(this.building, Number(row.dataset['feature']));
+      if (feature) row.querySelector('.tree-fact')!.textContent = feature.name || feature.id;
+    }
+  }
+
   private showParts(operator: string, outcomes: ScaleAnswer['outcomes']): void {
     const parts = outcomes.filter(outcome => outcome.feature >= 0).map((outcome): [number, number] => [this.building, outcome.feature]);
     this.app.show(parts, `${operator}: ${parts.length}`);
@@ -202,7 +214,7 @@ class ScalePanel {
     const feature = this.app.feature(this.building, outcome.feature);
     const name = feature?.name || feature?.id || '';
     return el('li', {}, el('button', {
-      type: 'button', class: 'tree-row', onclick: () => { if (outcome.feature >= 0) this.app.select({building: this.building, feature: outcome.feature}, false); }
+      type: 'button', class: 'tree-row', 'data-feature': outcome.feature, onclick: () => { if (outcome.feature >= 0) this.app.select({building: this.building, feature: outcome.feature}, false); }
     }, el('span', {class: 'sample-why'}, outcome.sentence), el('span', {class: 'tree-fact'}, name)));
   }
 }

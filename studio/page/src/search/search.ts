@@ -10,7 +10,7 @@ import {matchesOf, plain} from './names';
 export function searchBox(app: App): {element: HTMLElement; search: (text: string) => void} {
   const input = el('input', {type: 'search', id: 'search', 'aria-label': words.search.label, autocomplete: 'off',
     spellcheck: 'false', enterkeyhint: 'search'});
-  const narrow = matchMedia('(max-width: 759px)');
+  const narrow = matchMedia('(max-width: 1099px)');
   const fit = () => { input.placeholder = narrow.matches ? words.search.title : words.search.placeholder; };
   narrow.addEventListener('change', fit);
   fit();

@@ -2,8 +2,8 @@
 import type {App} from '../app';
 import {el, replace} from '../dom';
 import {authorOf} from '../editor/author';
-import {proposalView} from '../saving/diff';
-import type {LearnAnswer} from '../source';
+import {changeView, proposalView} from '../saving/diff';
+import type {LearnAnswer, RuleProposal} from '../source';
 import {words} from '../strings';
 
 const kPoll_ms = 400;
@@ -20,7 +20,8 @@ export class LearnBox {
   /** The text that the running search began with: the proposal is compared with it. */
   private asked = '';
   private isStopped = false;
-  private destroyView: () => void = () => undefined;
+  /** What ends the diffs that are shown. */
+  private readonly views: (() => void)[] = [];
 
   constructor(private readonly app: App) {
     this.element = el('section', {class: 'learn'}, el('h3', {}, words.learn.title), el('p', {class: 'small quiet'}, words.learn.why),
@@ -97,13 +98,44 @@ export class LearnBox {
   private proposalsOf(answer: LearnAnswer): HTMLElement | null {
     const list = answer.proposals ?? [];
     if (list.length === 0) return null;
-    return el('section', {}, el('h3', {}, words.learn.rules), el('ul', {class: 'plain small rule-proposals'}, ...list.map(proposal => el('li', {},
-      el('code', {}, proposal.rule), ' ', proposal.what, ' ', el('span', {class: 'quiet number'}, words.learn.gain(proposal.gain, proposal.held_out_gain))))));
+    return el('section', {}, el('h3', {}, words.learn.rules),
+      el('ul', {class: 'plain small rule-proposals'}, ...list.map((proposal, index) => this.proposalItem(proposal, index))));
+  }
+
+  /** What it says; opened, the diff that it makes, with a button that makes it. */
+  private proposalItem(proposal: RuleProposal, index: number): HTMLElement {
+    const said = [el('code', {}, proposal.rule), ' ', proposal.what, ' ', el('span', {class: 'quiet number'}, words.learn.gain(proposal.gain, proposal.held_out_gain))];
+    if (!proposal.text) return el('li', {}, ...said, proposal.why_not ? el('p', {class: 'quiet'}, proposal.why_not) : null);
+    const box = el('details', {}, el('summary', {}, words.learn.showDiff));
+    box.addEventListener('toggle', () => {
+      if (!box.open || box.childElementCount > 1) return;
+      const view = changeView(this.asked, proposal.text!);
+      this.views.push(view.destroy);
+      box.append(view.element, el('div', {class: 'dialog-buttons'}, el('button', {type: 'button', class: 'button tool',
+        onclick: () => void this.acceptRule(proposal.rule, index)}, words.learn.acceptRule)));
+    });
+    return el('li', {}, ...said, box);
+  }
+
+  /** The pack may have been edited since the search, or another change been made: it is made in the text as it stands. */
+  private async acceptRule(rule: string, index: number): Promise<void> {
+    const author = authorOf(this.app);
+    const before = author.text;
+    try {
+      const {text, why_not} = await this.app.source.acceptProposal(index, before);
+      if (text === '' || author.text !== before) this.told.textContent = why_not || words.learn.outdated;
+      else {
+        author.replaceText(text, 'input.proposal');
+        this.told.textContent = words.learn.acceptedRule(rule);
+      }
+    } catch (error) {
+      this.told.textContent = error instanceof Error ? error.message : words.source.garbled;
+    }
   }
 
   private showProposal(text: string): void {
     const view = proposalView(this.asked, text);
-    this.destroyView = view.destroy;
+    this.views.push(view.destroy);
     const accept = () => {
       const author = authorOf(this.app);
       if (author.text !== this.asked) {
@@ -120,8 +152,7 @@ export class LearnBox {
   }
 
   private clear(): void {
-    this.destroyView();
-    this.destroyView = () => undefined;
+    for (const destroy of this.views.splice(0)) destroy();
     replace(this.result);
   }
 }

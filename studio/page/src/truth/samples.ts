@@ -1,7 +1,7 @@
 // What people say of single parts: corrections, the parts most worth a look, and learning from both.
 import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
-import type {Correction, Part} from '../source';
+import type {AskAnswer, Correction, Part} from '../source';
 import {labelOf} from '../store';
 import {words} from '../strings';
 import {correct, openCorrectMenu} from './correct_menu';
@@ -22,6 +22,8 @@ class Samples {
   private readonly asked = el('ol', {class: 'plain sample-list'});
   private readonly askButton = el('button', {type: 'button', class: 'button', onclick: () => void this.ask()}, words.samples.ask);
   private isShown = false;
+  private listed: Correction[] = [];
+  private worth: AskAnswer['parts'] = [];
 
   constructor(private readonly app: App) {
     this.element = el('div', {class: 'panel samples'}, this.chosen,
@@ -29,6 +31,7 @@ class Samples {
       el('section', {}, el('h3', {}, words.samples.worth), el('p', {class: 'small quiet'}, words.samples.worthWhy), this.askButton, this.asked),
       new LearnBox(app).element);
     app.store.watch(['selection', 'labels', 'features'], () => this.showChosen());
+    app.store.watch(['features'], () => this.fill());
     document.addEventListener('oriel-corrected', () => void this.read());
   }
 
@@ -57,10 +60,17 @@ class Samples {
     try {
       const {path, list} = await this.app.source.corrections();
       this.correctionsSum.textContent = list.length === 0 ? words.samples.noCorrections(path) : words.samples.inFile(list.length, path);
-      replace(this.corrections, ...list.map(entry => this.correctionItem(entry)));
+      this.listed = list;
+      this.fill();
     } catch (error) {
       this.correctionsSum.textContent = error instanceof Error ? error.message : words.source.garbled;
     }
+  }
+
+  /** Again when names have come. */
+  private fill(): void {
+    replace(this.corrections, ...this.listed.map(entry => this.correctionItem(entry)));
+    if (this.worth.length > 0) replace(this.asked, ...this.worth.map(entry => this.askedItem([entry.building, entry.feature], entry.sentence)));
   }
 
   private correctionItem(entry: Correction): HTMLElement {
@@ -76,7 +86,8 @@ class Samples {
     this.askButton.disabled = true;
     try {
       const answer = await this.app.source.ask(kAsked);
-      replace(this.asked, ...answer.parts.map(entry => this.askedItem([entry.building, entry.feature], entry.sentence)));
+      this.worth = answer.parts;
+      this.fill();
       if (answer.parts.length === 0) replace(this.asked, el('li', {class: 'quiet'}, words.samples.nothingToAsk));
     } catch (error) {
       replace(this.asked, el('li', {class: 'grave'}, error instanceof Error ? error.message : words.source.garbled));

@@ -1,6 +1,24 @@
+import {execFileSync} from 'node:child_process';
+import {readFileSync} from 'node:fs';
 import {openOtherSite} from '../studio.mjs';
 
-export const title = 'the page shows the building, and is for nobody else';
+export const title = 'the page shows the building, is for nobody else, and outlives a crash';
+// What was asked of a worker that ended.
+export const expected = ['net::ERR'];
+
+/** A worker ends, another follows: a correction that meets neither is written all the same, and the page says what happened. */
+async function outlivesCrash({page, studio, check}) {
+  await page.waitForSelector('html[data-ready]');
+  const worker = Number(execFileSync('pgrep', ['-P', String(studio.pid)], {encoding: 'utf8'}).trim().split('\n')[0]);
+  await page.route('**/api/correct', async route => {
+    process.kill(worker, 'SIGKILL');
+    await route.abort('connectionreset');
+  }, {times: 1});
+  const answer = await page.evaluate(() => window.oriel.source.correct({building: 0, feature: 3, class: 'door'}));
+  check(answer.count === 1 && /"door"/.test(readFileSync(studio.path('corrections.jsonl'), 'utf8')), 'a correction is asked again when a worker has ended');
+  const said = await page.textContent('.status');
+  check(/started again/.test(said), `and the page says so: ${said}`);
+}
 
 export async function run({page, context, studio, check, picture}) {
   const answer = await page.goto(studio.address);
@@ -30,4 +48,5 @@ export async function run({page, context, studio, check, picture}) {
   check(said[1] === 'failed', 'another site cannot ask');
   check(/refused: method=POST path=\/api\/state status=403/.test(studio.log), 'what it sent is refused and a line of the log');
   check(/refused: method=OPTIONS path=\/api\/state status=403/.test(studio.log), 'its browser was not allowed to ask');
+  await outlivesCrash({page, studio, check});
 }
