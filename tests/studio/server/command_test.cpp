@@ -211,4 +211,22 @@ TEST_SUITE("studio/server") {
     CHECK(studio.ask("save", good).first == 200);
     CHECK(fs::exists(folder / "pack.yaml"));
   }
+
+  TEST_CASE("a program without its HTTP module does all but the studio") {
+    const StudioFolder folder;
+    fs::create_directory(folder / "bin");
+    fs::copy_file(ORIEL_COMMAND, folder / "bin/oriel");
+    const auto status_of = [&](const std::string& words) {
+      const std::string line =
+          fmt::format("'{}' {} >'{}' 2>&1", folder / "bin/oriel", words, folder / "said");
+      return WEXITSTATUS(std::system(line.c_str()));
+    };
+    CHECK(status_of("--version") == 0);
+    CHECK(status_of(fmt::format("studio --no-browser '{}'", kHouse)) == 5);
+    std::ifstream said(folder / "said");
+    const std::string text{std::istreambuf_iterator<char>(said), {}};
+    CHECK(text.find("oriel/oriel-http.so: E101 the part of oriel that serves its studio cannot be "
+                    "loaded: there is no such file; install oriel again") != std::string::npos);
+    CHECK(text.find("http://") == std::string::npos);
+  }
 }

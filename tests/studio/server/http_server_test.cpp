@@ -1,4 +1,4 @@
-#include "studio/server/http_server.h"
+#include "studio/server/http/http_server.h"
 
 #include "studio/server/listening_socket.h"
 #include "studio/server/page_files.h"
