@@ -117,6 +117,10 @@ class BuildingDrawer {
   void keep_figures(const Profile* profile, const PipelineResult& result,
                     const Generalised& changes, const Redrawn& redrawn,
                     GeneralisedBuilding& out) const;
+  void pass(Stage stage) const {
+    if (options_.checkpoint) options_.checkpoint(stage);
+  }
+  [[nodiscard]] SolidValidator passing(SolidValidator validator) const;
   void give_up(const PipelineResult& result, Issue fault, GeneralisedBuilding& drawn) const;
   [[nodiscard]] Redrawn untouched(const PipelineResult& result, GeneralisedBuilding& out) const;
   [[nodiscard]] std::string target_text(const Profile* profile) const;
@@ -136,6 +140,7 @@ GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging j
   const LabelledBuilding labelled = annotate(building_, result, rules_, options_);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
   for (std::size_t i = 0; i < count; ++i) {
+    pass(Stage::generalise);
     const Profile* profile = i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr;
     auto redrawn = draw_for(profile, {result, labelled, undrawn}, judging, drawn);
     if (!redrawn) {
@@ -183,6 +188,7 @@ void BuildingDrawer::draw_without_imprints(const PipelineResult& result,
 
 void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
   Work work(options_.budget);
+  pass(Stage::solidify);
   auto repaired = repair_and_retry(document_, building_, result, rules_, options_, work);
   if (!repaired) return;
   const BuildingDrawer anew(document_, building_, rules_, targets_, options_, work);
@@ -208,6 +214,7 @@ std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
   std::optional<Issue> fault;
   for (Redrawn& redrawn : drawn.levels) {
     if (!redrawn.labelled.geometry) continue;
+    pass(Stage::write);
     OutputCheck found =
         check_redrawn(document_, building_, *result.solid, *redrawn.labelled.geometry);
     if (found.fault) fault = std::move(found.fault);
@@ -317,9 +324,20 @@ Invariants BuildingDrawer::invariants_for(const Profile* profile, const Pipeline
                                            document_, building_, *result.solid);
   invariants.work = &work_;
   if (judging != Judging::none)
-    invariants.validator = counted(
-        judge_as_written(document_, building_, *result.solid, judging == Judging::thorough), work_);
+    invariants.validator = passing(
+        counted(judge_as_written(document_, building_, *result.solid, judging == Judging::thorough),
+                work_));
   return invariants;
+}
+
+/// A checkpoint before each of its judgements.
+SolidValidator BuildingDrawer::passing(SolidValidator validator) const {
+  if (!options_.checkpoint) return validator;
+  validator.fitness_of = [this, inner = std::move(validator.fitness_of)](const Solid& solid) {
+    pass(Stage::generalise);
+    return inner(solid);
+  };
+  return validator;
 }
 
 /// With what has too fine edges taken off, if the profile asks for that; its steps are added to the
@@ -329,6 +347,7 @@ Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile,
                                                  const Invariants& invariants, Plan& plan) const {
   const FeatureTable& table = result.description.table;
   const auto carry_out = [&] {
+    pass(Stage::generalise);
     return oriel::generalise(*result.solid, *result.segmentation, table, result.interpretation,
                              plan, segment_options(options_, result.tolerances), invariants);
   };

@@ -9,6 +9,7 @@
 #include "oriel/result.h"
 #include "oriel/write.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,6 +38,11 @@ Targets at_scale(double denominator);
 struct GeneraliseOptions : LabelOptions {
   bool reports_changes = false;  ///< TargetReport::changes
   bool reports_figures = false;  ///< TargetReport::figures
+  /// Is called often while a building is redrawn, with the stage that is at work: generalise while
+  /// features are taken off or changed, write while it is checked as it will be written, solidify
+  /// while it is repaired. What it throws, if it is no std::exception, ends generalise() and comes
+  /// out of it. Results do not depend on it.
+  std::function<void(Stage)> checkpoint{};
 };
 
 /// Figures of a building before and after.

@@ -9,6 +9,8 @@
 #include "studio/session/request_body.h"
 #include "studio/session/scale_cache.h"
 #include "studio/session/session.h"
+#include "studio/session/verbs/drawing_progress.h"
+#include "studio/session/verbs/newest_wins.h"
 
 #include <memory>
 #include <string>
@@ -32,6 +34,9 @@ struct Desk {
   OpenBuildings buildings;
   PackRunner runner;
   ScaleCache scales;
+  DrawingProgress drawing;
+  /// Explanations with what would change a label, and drawings for a scale: both may take long.
+  NewestWins explanations, drawings;
   SampleStore samples;
   /// The last member: it works with what it was given.
   LearningJob learning;

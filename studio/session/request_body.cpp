@@ -128,4 +128,8 @@ double rounded(double value, int decimals) {
   return std::round(value * power) / power;
 }
 
+void refuse_superseded(const char* sentence) {
+  throw RefusedRequest(409, sentence, Code::none, {{"superseded", true}});
+}
+
 }  // namespace oriel::studio

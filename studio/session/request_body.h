@@ -73,4 +73,7 @@ StudioJson number_or_null(double value);
 /// Rounded to so many decimals, so that answers stay short.
 double rounded(double value, int decimals);
 
+/// Throws RefusedRequest 409 {superseded: true}: "a newer pack came".
+[[noreturn]] void refuse_superseded(const char* sentence);
+
 }  // namespace oriel::studio

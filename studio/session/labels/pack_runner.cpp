@@ -12,9 +12,7 @@ namespace oriel::studio {
 
 namespace {
 
-[[noreturn]] void refuse_superseded() {
-  throw RefusedRequest(409, "a newer pack came", Code::none, {{"superseded", true}});
-}
+constexpr const char* kNewerPack = "a newer pack came";
 
 /// True if everything that is loaded by now is labelled, with the truth as it is now.
 bool is_up_to_date(const LabelledBuildings& labelled, const BuildingList& buildings,
@@ -63,7 +61,7 @@ StudioJson PackRunner::run(const RequestBody& body) {
           : 0;
   const std::uint64_t ticket = ++newest_;
   const std::lock_guard lock(running_);
-  if (newest_ > ticket) refuse_superseded();
+  if (newest_ > ticket) refuse_superseded(kNewerPack);
   const auto start = std::chrono::steady_clock::now();
   has_begun_ = true;
   const EditedPack pack = edited(text);
@@ -79,7 +77,7 @@ StudioJson PackRunner::run(const RequestBody& body) {
   if (rules) {
     const auto before = last();
     const auto labelled = label(*rules, text, assignments, ticket);
-    if (!labelled) refuse_superseded();
+    if (!labelled) refuse_superseded(kNewerPack);
     answer["number"] = labelled->number;
     // A number that was not given here is of a worker before this one.
     const std::uint64_t known = since <= labelled->number ? since : 0;

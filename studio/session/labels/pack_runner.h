@@ -26,6 +26,8 @@ class PackRunner {
   /// The verb `pack`. Throws RefusedRequest 409 {superseded: true} if another one came while it
   /// waited or ran.
   StudioJson run(const RequestBody& body);
+  /// How many requests `pack` there were: another one has come where it is another number.
+  [[nodiscard]] std::uint64_t requests() const { return newest_; }
 
   /// The last good pack with all buildings that are loaded by now; before any pack came, that of
   /// the file. Null: none was good.

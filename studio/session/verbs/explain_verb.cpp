@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -216,6 +217,19 @@ StudioJson correction_of(const Desk& desk, const AskedBuilding& asked, FeatureId
   return nullptr;
 }
 
+/// With the flip; given up where another one, or another pack, is asked for.
+Explanation explain_fully(Desk& desk, const Explainer& explainer, const AskedBuilding& asked,
+                          FeatureId feature) {
+  const std::uint64_t packs = desk.runner.requests();
+  const auto is_overtaken =
+      desk.explanations.begin(fmt::format("{} {}", asked.number, feature.value));
+  Explanation explanation = explainer.explain_fully(
+      feature, [&] { return is_overtaken() || desk.runner.requests() != packs; });
+  if (explanation.flip && explanation.flip->is_given_up)
+    refuse_superseded("something newer was asked for");
+  return explanation;
+}
+
 }  // namespace
 
 StudioJson answer_explain(Desk& desk, const RequestBody& body) {
@@ -226,8 +240,9 @@ StudioJson answer_explain(Desk& desk, const RequestBody& body) {
   const Interpretation& interpretation = asked.labelled->interpretation;
   const Explainer explainer(asked.all->rules, table, graph, interpretation);
   // The page shows what is known at once, and asks for the flip where somebody stays.
-  Explanation explanation = body.flag("quick") ? explainer.explain_without_flip(feature)
-                                               : explainer.explain_fully(feature);
+  const bool is_quick = body.flag("quick");
+  Explanation explanation = is_quick ? explainer.explain_without_flip(feature)
+                                     : explain_fully(desk, explainer, asked, feature);
   explanation.name =
       feature_names(*open.segmented.segmentation, table, &interpretation).at(feature.index());
   StudioJson answer = ExplanationWriter(*asked.all, *asked.labelled, explanation, feature).json();

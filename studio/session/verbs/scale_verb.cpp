@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -145,29 +146,60 @@ class RedrawnWriter {
   std::map<std::string, int> feature_by_id_;
 };
 
+/// Nobody waits for the drawing any longer. No std::exception: those are faults of a building.
+struct DrawingGivenUp {};
+
+/// Draws the building; throws DrawingGivenUp.
+StudioJson drawn(Desk& desk, const AskedBuilding& asked, const Targets& targets,
+                 const std::function<bool()>& is_given_up) {
+  const OpenBuilding& open = *asked.labelled->building;
+  DrawingProgress::Drawing drawing(desk.drawing, asked.number, targets.text());
+  GeneraliseOptions options;
+  static_cast<LabelOptions&>(options) = desk.options.label;
+  options.corrections = nullptr;
+  options.has_output = false;
+  options.reports_changes = true;
+  options.checkpoint = [&](Stage stage) {
+    drawing.pass(stage);
+    if (is_given_up()) throw DrawingGivenUp{};
+  };
+  options.checkpoint(Stage::interpret);
+  const AtWork at_work(desk.options.work_log, WorkLog::Kind::building, asked.number);
+  const RuleBase& rules = asked.all->rules;
+  const PipelineResult result = label(*open.building, open.segmented, rules, options);
+  options.checkpoint(Stage::generalise);
+  const GeneralisedBuilding made =
+      generalise(*open.document, *open.building, result, rules, targets, options);
+  StudioJson answer = StudioJson::object();
+  RedrawnWriter(open, desk.buildings.origin_m()).write(made, answer);
+  answer["note"] = asked.all->buildings.size() > 1
+                       ? "this building is drawn alone; the other buildings are not looked at and "
+                         "stay as they are"
+                       : "";
+  return answer;
+}
+
 }  // namespace
 
 StudioJson answer_scale(Desk& desk, const RequestBody& body) {
+  if (body.flag("progress")) return desk.drawing.json();
+  if (body.flag("stop")) {
+    desk.drawings.give_up_all();
+    return desk.drawing.json();
+  }
   const Targets targets = asked_targets(body);
   const AskedBuilding asked = asked_building(desk, body);
   const std::string key =
       fmt::format("{} {} {}", asked.number, asked.all->rules.sha256(), targets.recipe());
-  return *desk.scales.get(key, [&] {
-    const OpenBuilding& open = *asked.labelled->building;
-    GeneraliseOptions options;
-    static_cast<LabelOptions&>(options) = desk.options.label;
-    options.corrections = nullptr;
-    options.has_output = false;
-    options.reports_changes = true;
-    const AtWork at_work(desk.options.work_log, WorkLog::Kind::building, asked.number);
-    const RuleBase& rules = asked.all->rules;
-    const PipelineResult result = label(*open.building, open.segmented, rules, options);
-    const GeneralisedBuilding made =
-        generalise(*open.document, *open.building, result, rules, targets, options);
-    StudioJson answer = StudioJson::object();
-    RedrawnWriter(open, desk.buildings.origin_m()).write(made, answer);
-    return answer;
-  });
+  const auto is_given_up = desk.drawings.begin(key);
+  while (!is_given_up()) {
+    try {
+      return *desk.scales.get(key, [&] { return drawn(desk, asked, targets, is_given_up); });
+    } catch (const DrawingGivenUp&) {
+      // Perhaps an older request's for the same that was given up in between: once more.
+    }
+  }
+  refuse_superseded("another drawing was asked for, or none");
 }
 
 }  // namespace oriel::studio

@@ -1,5 +1,6 @@
 #include "tests/studio/session/studio_bench.h"
 
+#include <atomic>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -59,6 +60,40 @@ TEST_SUITE("studio/session") {
     CHECK(pack["labels"].empty());
     const json after = bench.ask("scale", {{"building", 0}, {"scale", 1000}});
     CHECK(after["polygons"].size() < before["polygons"].size());
+  }
+
+  TEST_CASE("a drawing that something newer overtakes or that is stopped ends") {
+    StudioBench bench;
+    bench.pack(bench.pack_text());
+    std::atomic<bool> is_over = false;
+    std::atomic<int> overtaken = 0, drawn = 0;
+    // Each drawing is a new one: none is kept of those that were given up.
+    const auto ask = [&](int building) {
+      for (int scale = 2000; !is_over; ++scale) {
+        const auto reply =
+            bench.reply("scale", json{{"building", building}, {"scale", scale}}.dump());
+        CHECK((reply.status == 200 || reply.status == 409));
+        if (reply.status == 409) CHECK(json::parse(reply.json)["superseded"] == true);
+        ++(reply.status == 409 ? overtaken : drawn);
+      }
+    };
+    std::thread one(ask, 0), other(ask, 1);
+    std::set<std::string> stages;
+    while (overtaken < 3 || stages.empty()) {
+      const json progress = bench.ask("scale", {{"progress", true}});
+      if (progress["state"] != "running") continue;
+      CHECK(progress["building"].get<int>() < 2);
+      CHECK(progress["target"].get<std::string>().starts_with("1:2"));
+      stages.insert(progress["stage"].get<std::string>());
+    }
+    for (const int before = overtaken; overtaken == before;) bench.ask("scale", {{"stop", true}});
+    is_over = true;
+    one.join();
+    other.join();
+    CHECK(bench.ask("scale", {{"progress", true}})["state"] == "idle");
+    const json last = bench.ask("scale", {{"building", 0}, {"scale", 2000}});
+    check_drawing(last);
+    CHECK(last["note"].get<std::string>().starts_with("this building is drawn alone"));
   }
 
   TEST_CASE("what is no scale is refused") {

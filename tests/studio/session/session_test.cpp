@@ -2,6 +2,7 @@
 #include "tests/studio/session/studio_bench.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <fstream>
 #include <set>
@@ -169,6 +170,33 @@ TEST_SUITE("studio/session") {
     const json state = bench.ask("state", json::object());
     CHECK(state["buildings"].size() == 2);
     CHECK(state["issues"].size() == 2);
+  }
+
+  TEST_CASE("an explanation that something newer overtakes ends") {
+    StudioBench bench;
+    const std::string text = bench.pack_text();
+    bench.pack(text);
+    std::atomic<bool> is_over = false;
+    std::atomic<int> answered = 0, overtaken = 0;
+    const auto ask = [&](int first) {
+      for (int f = first; !is_over; f = (f + 1) % 20) {
+        const auto reply = bench.reply("explain", json{{"building", 1}, {"feature", f}}.dump());
+        if (reply.status == 200) ++answered;
+        if (reply.status != 409) continue;
+        CHECK(json::parse(reply.json)["superseded"] == true);
+        ++overtaken;
+      }
+    };
+    std::thread one(ask, 0), other(ask, 7);
+    while (overtaken < 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    is_over = true;
+    one.join();
+    other.join();
+    const json last = bench.ask("explain", {{"building", 1}, {"feature", 0}});
+    CHECK(last.contains("flip"));
+    // A quick one ends none.
+    CHECK(bench.ask("explain", {{"building", 1}, {"feature", 0}, {"quick", true}})["flip"] ==
+          nullptr);
   }
 }
 
