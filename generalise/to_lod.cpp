@@ -1,9 +1,13 @@
 #include "generalise/to_lod.h"
 
 #include "generalise/generalise.h"
+#include "kernel/base/counted.h"
 #include "kernel/blocks/blocks.h"
 
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel {
 
@@ -35,7 +39,8 @@ Redrawn drawn_blocks(const LabelledBuilding& labelled, Solid solid) {
 Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
                         const Segmentation& segmentation, const FeatureTable& table,
                         const Interpretation& interpretation, const Profile& profile,
-                        Generalised generalised, const Tolerances& tolerances) {
+                        Generalised generalised, const Tolerances& tolerances,
+                        std::function<bool(const Box& gained)> may_cover) {
   Checked<Redrawn> out;
   if (profile.form == Profile::Form::as_is) {
     generalised.is_drawn_anew = true;
@@ -45,16 +50,24 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
     BlockOptions options;
     options.is_by_roof = profile.form == Profile::Form::blocks;
     options.least_piece_m2 = profile.least_piece_m2;
+    options.least_edge_m = profile.footprint_edge_m;
+    options.may_cover = std::move(may_cover);
     auto made = blocks(generalised.solid, building.id, options, tolerances);
     out.issues = std::move(made.issues);
     if (!made.value) return out;
-    const auto note = [&](const char* sentence) {
-      out.issues.push_back(building_issue(Severity::note, Code::G407, building.id, sentence));
+    const auto note = [&](std::string sentence) {
+      out.issues.push_back(
+          building_issue(Severity::note, Code::G407, building.id, std::move(sentence)));
     };
     if (made.value->is_simplified)
       note("parts of its roof meet in a vertical edge: it became one block");
     if (made.value->is_from_above)
       note("its ground is less than half of what is seen from above, which became the footprint");
+    if (made.value->short_edges > 0)
+      note(
+          fmt::format("{} of its footprint below {} m cannot go: too much ground would be covered "
+                      "or left, or a neighbour may stand there",
+                      counted(made.value->short_edges, "edge"), profile.footprint_edge_m));
     out.value = drawn_blocks(labelled, std::move(made.value->solid));
     count_removed(generalised.removed, segmentation, interpretation, *out.value);
   }

@@ -3,6 +3,9 @@
 #include "generalise/generalise.h"
 #include "interpret/plan/profile.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/model/vec3.h"
+
+#include <functional>
 
 namespace oriel {
 
@@ -11,11 +14,12 @@ namespace oriel {
 ///
 /// As it is: redraw(), with the whole geometry drawn anew. As blocks: kernel/blocks/blocks.h of the
 /// solid; each facet is a semantic surface RoofSurface, WallSurface or GroundSurface, and no
-/// installation is left. Note G407 if blocks had to be simpler than asked for, G406 (error) and no
-/// value if there are none.
+/// installation is left. `may_cover`, of one block: BlockOptions::may_cover. Note G407 if blocks
+/// had to be simpler than asked for, G406 (error) and no value if there are none.
 Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
                         const Segmentation& segmentation, const FeatureTable& table,
                         const Interpretation& interpretation, const Profile& profile,
-                        Generalised generalised, const Tolerances& tolerances = {});
+                        Generalised generalised, const Tolerances& tolerances = {},
+                        std::function<bool(const Box& gained)> may_cover = {});
 
 }  // namespace oriel

@@ -294,8 +294,10 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
                             false, made.value->changed, made.value->uncleared};
   std::optional<Redrawn> redrawn;
   if (targets_.has_lods()) {
-    auto level = to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation,
-                        *profile, std::move(*made.value), result.tolerances);
+    auto level =
+        to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation, *profile,
+               std::move(*made.value), result.tolerances,
+               profile->footprint_edge_m > 0 ? free_ground(document_, building_) : nullptr);
     if (!keep(level.issues, out)) return std::nullopt;
     redrawn = std::move(level.value);
   } else {
@@ -367,7 +369,7 @@ void BuildingDrawer::keep_figures(const Profile* profile, const PipelineResult& 
   const Solid& before = *result.solid;
   const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
   Fineness asked{least_m, profile != nullptr && profile->edge_min_m.has_value()};
-  if (profile != nullptr && profile->form != Profile::Form::as_is)
+  if (profile != nullptr && profile->form != Profile::Form::as_is && profile->footprint_edge_m == 0)
     asked.why_not_tried = "blocks keep the footprint and the heights of the roof";
   keep(fineness_issues(building_, before, after, *result.segmentation, result.description.table,
                        changes, asked),

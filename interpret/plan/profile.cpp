@@ -65,15 +65,16 @@ class ProfileReader {
 
  private:
   void read_level(const YamlNode& node) {
-    YamlSection section(
-        node, "a level",
-        {"form", "least-piece-m2", "omit", "keep", "imprints", "on-ground", "sizes-m", "area-m2",
-         "map-mm", "verdicts", "parts", "invariants", "edge-min-m", "edge-owner-b-m", "stl-solids"},
-        findings_);
+    YamlSection section(node, "a level",
+                        {"form", "least-piece-m2", "footprint-edge-m", "omit", "keep", "imprints",
+                         "on-ground", "sizes-m", "area-m2", "map-mm", "verdicts", "parts",
+                         "invariants", "edge-min-m", "edge-owner-b-m", "stl-solids"},
+                        findings_);
     if (!section.is_map()) return;
     if (const YamlNode* form = section.require("form")) read_form(*form);
     if (const YamlNode* piece = section.find("least-piece-m2"))
       profile_.least_piece_m2 = positive(*piece, "'least-piece-m2'").value_or(0);
+    if (const YamlNode* edge = section.find("footprint-edge-m")) read_footprint_edge(*edge);
     read_classes(section.find("omit"), profile_.omit);
     read_classes(section.find("keep"), profile_.keep);
     profile_.omits_imprints = word(section.find("imprints"), "keep", "omit");
@@ -100,6 +101,13 @@ class ProfileReader {
     else
       findings_.error(Code::R211, node.span,
                       "'form' is as-is, block or blocks, not '" + node.text + "'");
+  }
+
+  void read_footprint_edge(const YamlNode& node) {
+    if (profile_.form != Profile::Form::block)
+      findings_.error(Code::R211, node.span,
+                      "'footprint-edge-m' is for one flat block: write form: block");
+    profile_.footprint_edge_m = positive(node, "'footprint-edge-m'").value_or(0);
   }
 
   void read_classes(const YamlNode* node, std::vector<std::string>& classes) {

@@ -37,6 +37,8 @@ struct Profile {
   Form form = Form::as_is;
   /// Of `block` and `blocks`: courtyards and separate pieces with less area go.
   double least_piece_m2 = 0;
+  /// Of `block`: shorter edges of the footprint go, where they can; 0: none do.
+  double footprint_edge_m = 0;
   /// Classes of the pack; what is of one of them, or under it, always goes, or always stays.
   std::vector<std::string> omit, keep;
   bool omits_imprints = false;  ///< those without label

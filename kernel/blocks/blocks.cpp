@@ -2,6 +2,7 @@
 
 #include "kernel/base/index.h"
 #include "kernel/blocks/plan_view.h"
+#include "kernel/blocks/simplify_footprint.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/model/building.h"
 #include "kernel/solidify/solidify.h"
@@ -231,6 +232,7 @@ class BlockBuilder {
       auto solid = solidify(building, tolerances_, {Closing::planar});
       if (!solid.value || !is_closed(*solid.value)) continue;
       result.solid = std::move(*solid.value);
+      if (!is_by_roof && options_.least_edge_m > 0) simplify(result);
       for (Facet& facet : result.solid.facets) facet.polygons.clear();
       result.parts = static_cast<int>(heights_m_.size());
       result.is_simplified = options_.is_by_roof && !is_by_roof;
@@ -246,6 +248,14 @@ class BlockBuilder {
 
  private:
   [[nodiscard]] const std::vector<PlanView::PlanRegion>& regions() const { return view_.regions(); }
+
+  /// Where that makes no closed solid the footprint stays as it is.
+  void simplify(Blocks& result) const {
+    auto simpler = detail::simplify_footprint(result.solid, options_, tolerances_);
+    if (!simpler) return;
+    result.solid = std::move(simpler->solid);
+    result.short_edges = simpler->short_edges;
+  }
 
   [[nodiscard]] bool is_ground_too_small() const {
     double ground_m2 = 0, all_m2 = 0;

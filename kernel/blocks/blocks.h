@@ -3,7 +3,9 @@
 #include "kernel/base/issue.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/model/vec3.h"
 
+#include <functional>
 #include <string>
 
 namespace oriel {
@@ -19,6 +21,12 @@ struct BlockOptions {
   double least_part_m2 = 4;
   /// Courtyards and separate pieces of the footprint with less area than this go; 0: none do.
   double least_piece_m2 = 0;
+  /// Of one block: edges of the footprint that are shorter go, where they can
+  /// (detail::simplify_outlines); 0: none do.
+  double least_edge_m = 0;
+  /// True if no other building stands over the box of the plan: the footprint may come to cover
+  /// more of it than it did. Null: nobody knows, and it only ever covers less.
+  std::function<bool(const Box& gained)> may_cover{};
   /// So much of a block's area, seen from above, has its roof below the block's top. 0.7 as in
   /// 3DBAG's `h_dak_70p`.
   double height_share = 0.7;
@@ -38,6 +46,8 @@ struct Blocks {
   /// There was to be a block for each part of the roof, and they meet in a vertical edge without a
   /// common wall, which no closed solid can: one block was made.
   bool is_simplified = false;
+  /// Edges of the footprint below BlockOptions::least_edge_m that had to stay.
+  int short_edges = 0;
 };
 
 /// Blocks over the footprint of `solid`, from its lowest ground to the height that `options` say.

@@ -1,5 +1,11 @@
 #include "oriel/pipeline/targets.h"
 
+#include "kernel/base/index.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 namespace oriel {
 
 double least_edge_m(const Profile* profile, std::optional<double> scale) {
@@ -24,6 +30,26 @@ Invariants with_party_walls(Invariants invariants, const Document& document,
   if (invariants.limits.party_walls_pct)
     invariants.party_walls = party_walls(building, solid, document.buildings);
   return invariants;
+}
+
+std::function<bool(const Box& local_m)> free_ground(const Document& document,
+                                                    const Building& building) {
+  std::vector<Box> others;
+  for (const Building& other : document.buildings) {
+    if (other.id == building.id) continue;
+    Box box;
+    for (const Polygon& polygon : other.polygons)
+      for (const auto& ring : polygon.rings)
+        for (const int vertex : ring) box.grow(other.vertices[at(vertex)]);
+    others.push_back(box.moved(other.frame.origin_m - building.frame.origin_m));
+  }
+  if (others.empty()) return {};
+  return [others = std::move(others)](const Box& asked) {
+    return std::ranges::none_of(others, [&](const Box& box) {
+      return box.min.x <= asked.max.x && asked.min.x <= box.max.x && box.min.y <= asked.max.y &&
+             asked.min.y <= box.max.y;
+    });
+  };
 }
 
 }  // namespace oriel

@@ -5,6 +5,7 @@
 #include "interpret/plan/profile.h"
 #include "kernel/io/document.h"
 
+#include <functional>
 #include <optional>
 
 namespace oriel {
@@ -20,5 +21,10 @@ Invariants invariants_of(const Profile* profile, const RuleBase& rules,
 /// if they matter.
 Invariants with_party_walls(Invariants invariants, const Document& document,
                             const Building& building, const Solid& solid);
+
+/// Whether a box of the building's plan is free of all other buildings of the document, seen from
+/// above and by their boxes. Null if it has no others: then nobody knows what stands beside it.
+std::function<bool(const Box& local_m)> free_ground(const Document& document,
+                                                    const Building& building);
 
 }  // namespace oriel

@@ -123,6 +123,10 @@ TEST_SUITE("interpret") {
           "R272 ");
     CHECK(codes_of("{form: as-is, map-mm: -1}") == "R211 ");
     CHECK(codes_of("{form: round}") == "R211 ");
+    CHECK(codes_of("{form: block, footprint-edge-m: 3}") == "");
+    CHECK(codes_of("{form: block, footprint-edge-m: 0}") == "R211 ");
+    CHECK(codes_of("{form: blocks, footprint-edge-m: 3}") == "R211 ");
+    CHECK(codes_of("{form: as-is, footprint-edge-m: 3}") == "R211 ");
     CHECK(codes_of("{form: as-is, omits: [door]}") == "R209 ");
     CHECK(codes_of("{form: as-is, parts: {height-m: 3, area-m2: 4}}") == "");
     CHECK(codes_of("{form: as-is, parts: {height-m: 3}}") == "R210 ");

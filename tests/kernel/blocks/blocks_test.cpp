@@ -46,6 +46,39 @@ TEST_SUITE("kernel/blocks") {
     CHECK(volume_m3(made.solid) == doctest::Approx(12 * 8 * 8.1).epsilon(1e-6));
   }
 
+  TEST_CASE("a simpler footprint is a closed solid with the heights of the blocks") {
+    const Building body = BoxBody()
+                              .add({0, 0, 0}, {20, 12, 6})
+                              .add({8, -1, 0}, {10, 0, 6})
+                              .add({20, 0, 0}, {21, 4, 6})
+                              .build();
+    CHECK(blocks_of(body).solid.facets.size() == 2 + 12 - 2);
+    BlockOptions options;
+    options.least_edge_m = 3;
+    const Blocks made = blocks_of(body, options);
+    CHECK(made.short_edges == 0);
+    CHECK(made.solid.facets.size() == 6);
+    CHECK(volume_m3(made.solid) == doctest::Approx(20 * 12 * 6));
+    // With room around it the corner is not given up, but the oriel still goes.
+    options.may_cover = [](const Box&) { return true; };
+    CHECK(blocks_of(body, options).short_edges == 0);
+  }
+
+  TEST_CASE("a courtyard is simplified as the outer side is and stays a courtyard") {
+    const Building body = BoxBody()
+                              .add({0, 0, 0}, {30, 6, 6})
+                              .add({0, 24, 0}, {30, 30, 6})
+                              .add({0, 6, 0}, {6, 24, 6})
+                              .add({24, 6, 0}, {30, 24, 6})
+                              .add({14, 6, 0}, {16, 7, 6})
+                              .build();
+    BlockOptions options;
+    options.least_edge_m = 3;
+    const Blocks made = blocks_of(body, options);
+    CHECK(made.solid.facets.size() == 10);
+    CHECK(volume_m3(made.solid) == doctest::Approx((30 * 30 - 18 * 18) * 6));
+  }
+
   TEST_CASE("of a noisy building no spike is left that is thinner than its planes are apart") {
     const Building body =
         BoxBody().add({0, 0, 0}, {10, 8, 6}).add({4, -1, 0}, {4.003, 0, 6}).build();

@@ -1,0 +1,120 @@
+#include "kernel/blocks/simplify_footprint.h"
+
+#include "kernel/base/index.h"
+#include "kernel/blocks/simplify_outlines.h"
+#include "kernel/geometry/planar.h"
+#include "kernel/model/building.h"
+#include "kernel/solidify/solidify.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+namespace {
+
+/// A piece of the footprint and the block on it.
+struct UprightBlock {
+  std::vector<Outline> outlines;  ///< z = 0, the interior to the left
+  double ground_m = 0, top_m = 0;
+};
+
+Vec3 seen_from_above(Vec3 p) { return {p.x, p.y, 0}; }
+
+/// The blocks by their ground facets; the heights of walls are those of the tops over them.
+std::vector<UprightBlock> blocks_of(const Solid& solid) {
+  std::map<std::pair<double, double>, double> tops;
+  std::vector<UprightBlock> blocks;
+  for (const Vertex& vertex : solid.vertices) {
+    const auto [entry, is_new] = tops.try_emplace({vertex.point.x, vertex.point.y}, vertex.point.z);
+    entry->second = std::max(entry->second, vertex.point.z);
+  }
+  for (const Facet& facet : solid.facets) {
+    if (solid.planes[facet.plane.index()].coefficients[2] >= 0) continue;
+    UprightBlock& block = blocks.emplace_back();
+    for (const Loop& loop : facet.loops) {
+      Outline& outline = block.outlines.emplace_back();
+      for (const int v : loop) outline.push_back(solid.vertices[at(v)].point);
+      std::ranges::reverse(outline);
+    }
+    const Vec3 corner = block.outlines[0][0];
+    block.ground_m = corner.z;
+    block.top_m = tops.at({corner.x, corner.y});
+    for (Outline& outline : block.outlines)
+      std::ranges::transform(outline, outline.begin(), seen_from_above);
+  }
+  return blocks;
+}
+
+/// Adds the faces of blocks to a building, for solidify.
+class BlockFaces {
+ public:
+  void add(const UprightBlock& block) {
+    std::vector<std::vector<int>> top, ground;
+    for (const Outline& outline : block.outlines) {
+      const std::vector<int> low = ring(outline, block.ground_m), high = ring(outline, block.top_m);
+      for (std::size_t i = 0; i < low.size(); ++i) {
+        const std::size_t k = (i + 1) % low.size();
+        add_polygon({{low[i], low[k], high[k], high[i]}});
+      }
+      top.push_back(high);
+      ground.push_back({low.rbegin(), low.rend()});
+    }
+    add_polygon(std::move(top));
+    add_polygon(std::move(ground));
+    ++body_;
+  }
+
+  Building building;
+
+ private:
+  std::vector<int> ring(const Outline& outline, double z) {
+    std::vector<int> out;
+    for (const Vec3 p : outline) {
+      out.push_back(static_cast<int>(building.vertices.size()));
+      building.vertices.push_back({p.x, p.y, z});
+    }
+    return out;
+  }
+
+  void add_polygon(std::vector<std::vector<int>> rings) {
+    Polygon polygon;
+    polygon.rings = std::move(rings);
+    polygon.source = static_cast<int>(building.polygons.size());
+    polygon.body = body_;
+    building.polygons.push_back(std::move(polygon));
+  }
+
+  int body_ = 0;
+};
+
+/// The outlines of all blocks simplified at the same time, so that none comes to touch another.
+int simplify(std::vector<UprightBlock>& blocks, const OutlineLimits& limits) {
+  std::vector<Outline> all;
+  for (const UprightBlock& block : blocks)
+    all.insert(all.end(), block.outlines.begin(), block.outlines.end());
+  const int left = simplify_outlines(all, limits);
+  auto next = all.begin();
+  for (UprightBlock& block : blocks)
+    for (Outline& outline : block.outlines) outline = std::move(*next++);
+  return left;
+}
+
+}  // namespace
+
+std::optional<SimplerFootprint> simplify_footprint(const Solid& solid, const BlockOptions& options,
+                                                   const Tolerances& tolerances) {
+  std::vector<UprightBlock> blocks = blocks_of(solid);
+  SimplerFootprint out;
+  out.short_edges = simplify(blocks, {options.least_edge_m, tolerances.weld_m, options.may_cover});
+  BlockFaces faces;
+  for (const UprightBlock& block : blocks) faces.add(block);
+  auto made = solidify(faces.building, tolerances, {Closing::planar});
+  if (!made.value || !is_closed(*made.value)) return std::nullopt;
+  out.solid = std::move(*made.value);
+  return out;
+}
+
+}  // namespace oriel::detail
