@@ -25,7 +25,7 @@ export class Workbench implements App {
   partTools?: App['partTools'] & {};
   private lineOpener: ((line: number) => void) | null = null;
   private readonly names: FeatureNames;
-  private readonly shapes: ShapeLoader;
+  readonly shapes: ShapeLoader;
   private isFollowing = false;
 
   constructor(readonly source: Source, readonly store: Store, title: string) {

@@ -9,8 +9,6 @@ import {words} from '../strings';
 const kFirstFeatures = 300;
 const kMostFeatures = 6000;
 const kMostTogether = 100;
-/** Corners of polygons that are kept; each takes some 80 bytes of the page and as many of the graphics card. */
-const kMostCorners = 6_000_000;
 /** Until something is known: of generated houses. */
 const kCornersOfFeature = 30;
 /** Where there are too many, buildings that are smaller in the picture than these pixels stand as boxes. */
@@ -23,6 +21,8 @@ const kMostWanted = 200;
 const kMostFailures = 3;
 
 export class ShapeLoader {
+  /** Corners of polygons that are kept; each takes some 80 bytes of the page and as many of the graphics card. */
+  mostCorners = 6_000_000;
   private wanted: number[] = [];
   private readonly onWay = new Set<number>();
   private readonly failures = new Map<number, number>();
@@ -66,8 +66,10 @@ export class ShapeLoader {
   private async run(): Promise<void> {
     if (this.isRunning) return;
     this.isRunning = true;
+    this.trim();
     for (let batch = this.nextBatch(); batch.length > 0; batch = this.nextBatch()) {
       await this.load(batch);
+      this.trim();
       // The picture, the pointer and the keys have their turn.
       await new Promise(resolve => setTimeout(resolve, 0));
     }
@@ -87,10 +89,10 @@ export class ShapeLoader {
     const best = candidates[0];
     if (!best) return [];
     const all = candidates.reduce((sum, {number}) => sum + buildings[number]!.features, 0);
-    if (best.size < kLeastPx && this.corners + this.estimate(all) > kMostCorners) return [];
+    if (best.size < kLeastPx && this.corners + this.estimate(all) > this.mostCorners) return [];
     const batch = this.around(best.number);
     const more = this.estimate(batch.reduce((sum, number) => sum + buildings[number]!.features, 0));
-    if (this.corners + more <= kMostCorners || geometry.size === 0) return batch;
+    if (this.corners + more <= this.mostCorners || geometry.size === 0) return batch;
     return this.makeRoom(more, best.size) ? batch : [];
   }
 
@@ -125,21 +127,40 @@ export class ShapeLoader {
     return numbers.map((number, i) => ({number, size: sizes[i]!})).sort((p, q) => q.size - p.size);
   }
 
-  /** Drops what is clearly smaller in the picture than what would come. */
-  private makeRoom(corners: number, size: number): boolean {
-    const {geometry, selection} = this.app.store.value;
-    const smallest = this.bySize([...geometry.keys()].filter(number => number !== selection?.building)).reverse();
+  /** What was asked for comes always: what is smallest in the picture makes room for it. */
+  private trim(): void {
+    const {geometry} = this.app.store.value;
+    if (this.corners <= this.mostCorners) return;
     const gone: Shape[] = [];
-    let room = kMostCorners - this.corners;
-    for (const {number, size: own} of smallest) {
+    let corners = this.corners;
+    for (const shape of this.smallestFirst()) {
+      if (corners <= this.mostCorners || gone.length === geometry.size - 1) break;
+      gone.push(shape);
+      corners -= shape.corners.length;
+    }
+    this.drop(gone);
+  }
+
+  /** Drops what is clearly smaller in the picture than what would come; false if that is not enough. */
+  private makeRoom(corners: number, size: number): boolean {
+    const gone: Shape[] = [];
+    let room = this.mostCorners - this.corners;
+    const {buildings} = this.app.store.value;
+    for (const shape of this.smallestFirst()) {
       if (room >= corners) break;
-      if (own * kClearlyLarger > size) return false;
-      gone.push(geometry.get(number)!);
-      room += geometry.get(number)!.corners.length;
+      if (this.scene.sizesOf([buildings[shape.number]!])[0]! * kClearlyLarger > size) return false;
+      gone.push(shape);
+      room += shape.corners.length;
     }
     if (room < corners) return false;
     this.drop(gone);
     return true;
+  }
+
+  /** What is at hand, but for the chosen building. */
+  private smallestFirst(): Shape[] {
+    const {geometry, selection} = this.app.store.value;
+    return this.bySize([...geometry.keys()].filter(number => number !== selection?.building)).reverse().map(({number}) => geometry.get(number)!);
   }
 
   private drop(shapes: readonly Shape[]): void {

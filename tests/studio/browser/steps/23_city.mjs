@@ -42,4 +42,28 @@ export async function run({page, studio, check, picture}) {
   await page.click('#tab-explain');
   await page.waitForSelector('#chosen');
   check(/-3$/.test(await page.textContent('#chosen')), 'a building of it is explained when it is chosen');
+  await keepsLittle({page, check});
+}
+
+/** With room for a few houses only, those that are chosen come and the others stand as boxes. */
+async function keepsLittle({page, check}) {
+  const kMost = 20_000;
+  const kept = () => page.evaluate(() => {
+    const {geometry, selection} = window.oriel.store.value;
+    return {corners: [...geometry.values()].reduce((sum, {corners}) => sum + corners.length, 0), count: geometry.size, hasChosen: geometry.has(selection.building)};
+  });
+  const comes = async (test, what) => {
+    let now = await kept();
+    for (const end = Date.now() + 10_000; !test(now) && Date.now() < end; now = await kept()) await new Promise(resolve => setTimeout(resolve, 50));
+    check(test(now), `${what}: ${now.count} houses of ${now.corners} corners`);
+  };
+  check((await kept()).count === kCount, 'where there is room, all houses are as they are');
+  await page.evaluate(most => {
+    window.oriel.shapes.mostCorners = most;
+    window.oriel.select({building: 100}, true);
+  }, kMost);
+  await comes(({corners, hasChosen}) => hasChosen && corners <= kMost, 'where there is little, the chosen house and some are');
+  await page.evaluate(() => window.oriel.select({building: 2}, true));
+  await comes(({corners, hasChosen}) => hasChosen && corners <= kMost, 'and those of another place come instead');
+  check(Number(await page.getAttribute('#scene', 'data-draw-calls')) <= 200, 'in few calls');
 }
