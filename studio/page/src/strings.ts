@@ -51,7 +51,6 @@ export const words = {
     ['D', 'next doubtful part'],
     ['W', 'next wrong part'],
     ['/', 'search'],
-    ['C', 'say what the chosen part is'],
     ['Ctrl S', 'format and save the pack'],
     ['Ctrl Space', 'what can stand here'],
     ['F12', 'go to the definition'],

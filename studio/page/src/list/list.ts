@@ -32,7 +32,11 @@ export function listPanel(app: App): Panel {
     replace(rows, spacer, ...order.slice(first, last).map((building, i) => rowElement(app, building, facts.get(building)!, (first + i) * height, order.length, first + i)));
     if (focused) rows.querySelector<HTMLElement>(`[data-building="${focused}"]`)?.focus({preventScroll: true});
   };
+  let isStale = false;
   const update = () => {
+    // Behind another tab there is nothing to see: it is counted when it comes to the front.
+    isStale = Boolean(element.hidden);
+    if (isStale) return;
     facts = factsOf(app);
     order = [...facts.keys()];
     const by = sort.value;
@@ -54,7 +58,7 @@ export function listPanel(app: App): Panel {
     rows.scrollTop = Math.max(0, order.indexOf(building) * rowHeight() - rows.clientHeight / 2);
   });
   app.store.watch(['buildings', 'labels', 'doubtful', 'score', 'changed', 'selection'], update);
-  return {id: 'list', title: words.list.title, element, onShow: draw};
+  return {id: 'list', title: words.list.title, element, onShow: () => (isStale ? update() : draw())};
 }
 
 function factsOf(app: App): Map<number, Facts> {
