@@ -5,3 +5,5 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 oriel=$(realpath "${1:-build/release/cli/oriel}")
 tests/studio/browser/run.sh --pictures docs/studio "$oriel" build/release/tests/studio_browser author building city 22_phone
+# The steps take more pictures than the page shows.
+for picture in docs/studio/*.png; do grep -qF "studio/$(basename "$picture")" docs/studio.md README.md || rm "$picture"; done

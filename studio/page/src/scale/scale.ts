@@ -201,7 +201,7 @@ class ScalePanel {
   private nameOutcomes(): void {
     for (const row of this.outcomes.querySelectorAll<HTMLElement>('[data-feature]')) {
       const feature = this.app.feature(this.building, Number(row.dataset['feature']));
-      if (feature) row.querySelector('.tree-fact')!.textContent = feature.name || feature.id;
+      if (feature) row.querySelector('.outcome-name')!.textContent = feature.name || feature.id;
     }
   }
 
@@ -215,7 +215,7 @@ class ScalePanel {
     const name = feature?.name || feature?.id || '';
     return el('li', {}, el('button', {
       type: 'button', class: 'tree-row', 'data-feature': outcome.feature, onclick: () => { if (outcome.feature >= 0) this.app.select({building: this.building, feature: outcome.feature}, false); }
-    }, el('span', {class: 'sample-why'}, outcome.sentence), el('span', {class: 'tree-fact'}, name)));
+    }, el('span', {class: 'outcome-name'}, name), el('span', {class: 'sample-why'}, outcome.sentence)));
   }
 }
 

@@ -1,7 +1,7 @@
 // Ties the picture to the store: what is shown there follows what the page knows, and what the reader points at goes back.
 import {Vector3} from 'three';
 import type {App} from '../app';
-import type {BoxMm, Part, RelationEntry} from '../source';
+import type {BoxMm, Change, Part, RelationEntry} from '../source';
 import {labelOf, type Selection} from '../store';
 import {words} from '../strings';
 import type {BuildingScene, Hit} from './building_scene';
@@ -41,8 +41,19 @@ export function paintOf(app: App, looks: Look[]): Paint {
   return {
     labels, looks, unknown: {colour: '#e7e2d8', pattern: colours === 'pattern' ? 5 : 0}, hidden: filter.hidden,
     heat: colours === 'heat' ? heatOf(app.store.value) : null, selection, hover, found, open: openBuildings(app),
-    changed: shows_changes ? changed.map(({building, feature}): Part => [building, feature]) : []
+    changed: shows_changes ? partsOf(changed) : kNoParts
   };
+}
+
+const kNoParts: Part[] = [];
+const partsOfChanges = new WeakMap<readonly Change[], Part[]>();
+
+/** The same list for the same changes. */
+function partsOf(changed: readonly Change[]): Part[] {
+  if (changed.length === 0) return kNoParts;
+  let parts = partsOfChanges.get(changed);
+  if (!parts) partsOfChanges.set(changed, parts = changed.map(({building, feature}): Part => [building, feature]));
+  return parts;
 }
 
 const openOf = new WeakMap<object, ReadonlySet<number>>();

@@ -136,7 +136,9 @@ export class BuildingScene {
 
   /** With other looks of classes, `looks` is a new object; the rest may change from call to call. */
   setPaint(paint: Paint, buildings?: Iterable<number>): void {
-    const hasNewLooks = paint.looks !== this.paint.looks || paint.unknown !== this.paint.unknown;
+    const hasNewLooks = paint.looks !== this.paint.looks || paint.unknown.pattern !== this.paint.unknown.pattern;
+    if (!buildings && onlyLabelsDiffer(paint, this.paint))
+      buildings = [...this.buildings.keys()].filter(number => paint.labels.get(number) !== this.paint.labels.get(number));
     this.paint = paint;
     if (hasNewLooks) this.painter.setLooks(paint);
     const areOther = this.painter.paint(paint, buildings);
@@ -481,4 +483,10 @@ function freeAreaOf(host: HTMLElement): FreeArea {
   const beside = areaOf(card.right - all.left, all.height), over = areaOf(0, card.top - all.top);
   const sideOf = ({width, height}: FreeArea) => Math.min(width * all.width, height * all.height);
   return sideOf(beside) >= sideOf(over) ? beside : over;
+}
+
+/** Labels of buildings that have not changed are the same lists: after a key in the pack only a few are painted anew. */
+function onlyLabelsDiffer(p: Paint, q: Paint): boolean {
+  const same = ['looks', 'hidden', 'heat', 'selection', 'hover', 'found', 'changed', 'open'] as const;
+  return p.unknown.pattern === q.unknown.pattern && same.every(name => p[name] === q[name]);
 }
