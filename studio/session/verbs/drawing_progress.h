@@ -14,9 +14,9 @@ namespace oriel::studio {
 class DrawingProgress {
  public:
   /// A drawing at work, from its beginning to its end.
-  class Drawing {
+  class DrawingAtWork {
    public:
-    Drawing(DrawingProgress& progress, std::size_t building, std::string target)
+    DrawingAtWork(DrawingProgress& progress, std::size_t building, std::string target)
         : progress_(progress) {
       const std::lock_guard lock(progress_.mutex_);
       number_ = ++progress_.begun_;
@@ -26,12 +26,12 @@ class DrawingProgress {
       progress_.step_ = 0;
       progress_.is_at_work_ = true;
     }
-    ~Drawing() {
+    ~DrawingAtWork() {
       const std::lock_guard lock(progress_.mutex_);
       if (progress_.begun_ == number_) progress_.is_at_work_ = false;
     }
-    Drawing(const Drawing&) = delete;
-    Drawing& operator=(const Drawing&) = delete;
+    DrawingAtWork(const DrawingAtWork&) = delete;
+    DrawingAtWork& operator=(const DrawingAtWork&) = delete;
 
     void pass(Stage stage) {
       const std::lock_guard lock(progress_.mutex_);

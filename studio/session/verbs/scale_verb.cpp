@@ -153,7 +153,7 @@ struct DrawingGivenUp {};
 StudioJson drawn(Desk& desk, const AskedBuilding& asked, const Targets& targets,
                  const std::function<bool()>& is_given_up) {
   const OpenBuilding& open = *asked.labelled->building;
-  DrawingProgress::Drawing drawing(desk.drawing, asked.number, targets.text());
+  DrawingProgress::DrawingAtWork drawing(desk.drawing, asked.number, targets.text());
   GeneraliseOptions options;
   static_cast<LabelOptions&>(options) = desk.options.label;
   options.corrections = nullptr;
