@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/explain/explain.h"
+#include "interpret/explain/feature_relations.h"  // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/ids.h"
 #include "kernel/model/building.h"

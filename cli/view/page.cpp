@@ -77,9 +77,9 @@ struct PageData::State {
   int row_number(const ExplanationRow& row);
   ordered_json vertices(const Building& building);
   ordered_json polygons(const Building& building, const PipelineResult& line);
-  ordered_json relations(const PipelineResult& line, FeatureId feature);
+  ordered_json relations_of(const FeatureRelations& relations, FeatureId feature);
   ordered_json feature(const PipelineResult& line, const Explanation& explanation,
-                       FeatureId feature);
+                       const FeatureRelations& relations, FeatureId feature);
   ordered_json features(const PipelineResult& line);
   ordered_json storeys(const Building& building, const PipelineResult& line);
   ordered_json polygons(const Building& building, const CarriedLabels& carried);
@@ -140,20 +140,19 @@ ordered_json PageData::State::polygons(const Building& building, const PipelineR
   return list;
 }
 
-ordered_json PageData::State::relations(const PipelineResult& line, FeatureId feature) {
+ordered_json PageData::State::relations_of(const FeatureRelations& relations, FeatureId feature) {
   ordered_json list = ordered_json::array();
-  for (const VocabularyWord& relation : relation_words()) {
-    const auto others = line.description.graph.others(relation.name, feature);
-    if (others.empty() || others.size() > kMostRelated) continue;
+  for (const RelatedFeatures& related : relations.of(feature)) {
+    if (related.others.size() > kMostRelated) continue;
     ordered_json numbers = ordered_json::array();
-    for (const FeatureId other : others) numbers.push_back(other.value);
-    list.push_back({strings.number_of(std::string(relation.name)), std::move(numbers)});
+    for (const FeatureId other : related.others) numbers.push_back(other.value);
+    list.push_back({strings.number_of(related.relation), std::move(numbers)});
   }
   return list;
 }
 
 ordered_json PageData::State::feature(const PipelineResult& line, const Explanation& explanation,
-                                      FeatureId feature) {
+                                      const FeatureRelations& relations, FeatureId feature) {
   ordered_json rules_of_it = ordered_json::array();
   for (const RuleReport& rule : explanation.rules) {
     ordered_json numbers = ordered_json::array();
@@ -172,13 +171,16 @@ ordered_json PageData::State::feature(const PipelineResult& line, const Explanat
           {"sentence", studio::plain_sentence(line, line.interpretation, feature)},
           {"head", headline(explanation)},
           {"rules", std::move(rules_of_it)},
-          {"relations", relations(line, feature)}};
+          {"relations", relations_of(relations, feature)}};
 }
 
 ordered_json PageData::State::features(const PipelineResult& line) {
   ordered_json list = ordered_json::array();
-  for (const Explanation& explanation : explain_features(line, *rules))
-    list.push_back(feature(line, explanation, FeatureId{static_cast<int>(list.size())}));
+  const auto explanations = explain_features(line, *rules);
+  if (explanations.empty()) return list;
+  const FeatureRelations relations(*rules, line.description.table, line.description.graph);
+  for (const Explanation& explanation : explanations)
+    list.push_back(feature(line, explanation, relations, FeatureId{static_cast<int>(list.size())}));
   return list;
 }
 

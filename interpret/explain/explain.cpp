@@ -189,6 +189,8 @@ Explanation Explainer::explain_without_flip(FeatureId feature) const {
   Explanation explanation = state_->explain(prover, feature);
   explanation.near_misses = find_near_misses(state_->base->pack(), explanation, prover);
   if (!explanation.near_misses.empty()) explanation.nearest_miss = explanation.near_misses.front();
+  explanation.relations =
+      FeatureRelations(*state_->base, *state_->table, *state_->graph).of(feature);
   return explanation;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/explain/feature_relations.h"
 #include "interpret/pack/rule_base.h"
 #include "kernel/model/description/feature_graph.h"
 #include "kernel/model/description/feature_table.h"
@@ -195,6 +196,8 @@ struct Explanation {
   /// for each label.
   std::vector<NearestMiss> near_misses;
   std::optional<FlipSearch> flip;
+  /// Of a single feature that is explained with nearest misses; else empty.
+  std::vector<RelatedFeatures> relations;
   /// Set by who knows of it: all else is what the rules say without it.
   std::optional<CorrectedLabel> corrected;
 };
@@ -213,7 +216,7 @@ class Explainer {
   /// `feature` must be a row of the table. Without nearest misses and without a flip.
   [[nodiscard]] Explanation explain(FeatureId feature) const;
 
-  /// With nearest misses, without a flip: what takes time is to search for that.
+  /// With nearest misses and relations, without a flip: what takes time is to search for that.
   [[nodiscard]] Explanation explain_without_flip(FeatureId feature) const;
 
   /// The same with all of them.

@@ -157,6 +157,15 @@ std::string search_json(const FlipSearch& search) {
   return fmt::format("{{{}}}", text);
 }
 
+/// Built-in ones have no place.
+std::string relation_json(const RelatedFeatures& related) {
+  std::string text = member("name", json_string(related.relation));
+  text += next("meaning", json_string(related.meaning));
+  text += next("place", related.place.line == 0 ? "null" : place_json(related.place));
+  text += next("others", list(related.ids, json_string));
+  return fmt::format("{{{}}}", text);
+}
+
 std::string corrected_json(const CorrectedLabel& corrected) {
   std::string text = member("label", json_string(corrected.label));
   text += next("by", json_string(corrected.by));
@@ -186,6 +195,8 @@ std::string to_json(const Explanation& explanation) {
   text += next("rules", list(explanation.rules, rule_json));
   if (explanation.nearest_miss) text += next("nearest_miss", nearest_miss_json(explanation));
   if (explanation.flip) text += next("flip", search_json(*explanation.flip));
+  if (!explanation.relations.empty())
+    text += next("relations", list(explanation.relations, relation_json));
   if (explanation.corrected) text += next("corrected", corrected_json(*explanation.corrected));
   return fmt::format("{{{}}}", text);
 }

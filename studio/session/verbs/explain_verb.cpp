@@ -152,18 +152,17 @@ class ExplanationWriter {
 
   /// The relations that lead to others, and the groups that it is in.
   [[nodiscard]] StudioJson relations() const {
-    const FeatureGraph& graph = labelled_.building->segmented.description.graph;
     StudioJson list = StudioJson::array();
-    for (const VocabularyWord& relation : relation_words()) {
-      const auto others = graph.others(relation.name, feature_);
-      if (others.empty()) continue;
-      list.push_back(
-          {{"name", relation.name}, {"meaning", relation.meaning}, {"features", numbers(others)}});
-    }
+    for (const RelatedFeatures& related : explanation_.relations)
+      list.push_back({{"name", related.relation},
+                      {"meaning", related.meaning},
+                      {"line", line(related.place)},
+                      {"features", numbers(related.others)}});
     for (const Group& group : labelled_.interpretation.groups) {
       if (std::ranges::find(group.members, feature_) == group.members.end()) continue;
       list.push_back({{"name", group.kind},
                       {"meaning", "a group of the pack"},
+                      {"line", StudioJson()},
                       {"features", numbers(group.members)}});
     }
     return list;

@@ -124,6 +124,27 @@ TEST_SUITE("studio/session") {
     CHECK(has_row);
   }
 
+  TEST_CASE("relations of the pack are among those of a part") {
+    StudioBench bench;
+    const json pack = bench.pack(
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}}\n"
+        "relations:\n  level: {within: same facade, where: top ~ other.top by 1 %}\n"
+        "rules:\n  - {id: w, label: window, require: sense = hole}\n");
+    REQUIRE(pack["is_good"] == true);
+    std::size_t found = 0;
+    for (std::size_t f = 0; f < pack["labels"]["0"].size(); ++f) {
+      const json answer = bench.ask("explain", {{"building", 0}, {"feature", f}, {"quick", true}});
+      for (const json& relation : answer["relations"]) {
+        if (relation["name"] != "level") continue;
+        ++found;
+        CHECK(relation["line"] == 5);
+        CHECK(relation["meaning"] == "same facade where top ~ other.top by 1 %");
+        CHECK_FALSE(relation["features"].empty());
+      }
+    }
+    CHECK(found > 2);
+  }
+
   TEST_CASE("requests that make no sense are refused with a sentence") {
     StudioBench bench;
     for (const auto& [verb, body, status] : std::vector<std::tuple<const char*, std::string, int>>{
