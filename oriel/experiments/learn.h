@@ -1,17 +1,18 @@
 #pragma once
 
 /// Rules that learn from samples (docs/learn.md): read_samples, join_samples, folds_of,
-/// learn_params, learnt_pack, open_questions, propose; and how well variants of a pack label
-/// samples: count_variants.
-#include "interpret/experiment/count_variants.h"      // IWYU pragma: export
-#include "interpret/experiment/learn/ask.h"           // IWYU pragma: export
-#include "interpret/experiment/learn/folds.h"         // IWYU pragma: export
-#include "interpret/experiment/learn/learn_params.h"  // IWYU pragma: export
-#include "interpret/experiment/learn/learnt_pack.h"   // IWYU pragma: export
-#include "interpret/experiment/learn/objective.h"     // IWYU pragma: export
-#include "interpret/experiment/learn/propose.h"       // IWYU pragma: export
-#include "interpret/experiment/sample.h"              // IWYU pragma: export
-#include "interpret/labelling/corrections.h"          // IWYU pragma: export
+/// learn_params, learnt_pack, open_questions, propose, text_with_proposal; and how well variants of
+/// a pack label samples: count_variants.
+#include "interpret/experiment/count_variants.h"       // IWYU pragma: export
+#include "interpret/experiment/learn/ask.h"            // IWYU pragma: export
+#include "interpret/experiment/learn/folds.h"          // IWYU pragma: export
+#include "interpret/experiment/learn/learn_params.h"   // IWYU pragma: export
+#include "interpret/experiment/learn/learnt_pack.h"    // IWYU pragma: export
+#include "interpret/experiment/learn/objective.h"      // IWYU pragma: export
+#include "interpret/experiment/learn/proposal_text.h"  // IWYU pragma: export
+#include "interpret/experiment/learn/propose.h"        // IWYU pragma: export
+#include "interpret/experiment/sample.h"               // IWYU pragma: export
+#include "interpret/labelling/corrections.h"           // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/issue.h"
 #include "kernel/io/records/truth.h"

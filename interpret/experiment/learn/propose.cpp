@@ -6,8 +6,6 @@
 #include "interpret/experiment/relabelling.h"
 #include "interpret/language/quantity.h"
 #include "interpret/pack/names.h"
-#include "interpret/yaml/yaml_text.h"
-#include "interpret/yaml/yaml_tree.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -256,7 +254,8 @@ class Proposer {
     Proposal proposal;
     proposal.what = "drop" + variant.name.substr(std::string("without").size());
     proposal.rule = rule.id;
-    if (part.kind == Kind::rule) return proposal;
+    proposal.drops_rule = part.kind == Kind::rule;
+    if (proposal.drops_rule) return proposal;
     proposal.require = texts_of(pack_, rule.require);
     proposal.unless = texts_of(pack_, rule.unless);
     if (part.kind == Kind::veto) proposal.unless.erase(proposal.unless.begin() + part.item);
@@ -343,84 +342,12 @@ class Proposer {
   std::vector<Proposal> proposals_;
 };
 
-rules::YamlNode scalar_of(std::string text, bool is_plain) {
-  rules::YamlNode node;
-  node.kind = rules::YamlNode::Kind::scalar;
-  node.text = std::move(text);
-  node.is_plain = is_plain;
-  return node;
-}
-
-rules::YamlNode* member_of(rules::YamlNode& map, std::string_view key) {
-  for (rules::YamlEntry& entry : map.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
-void set_list(rules::YamlNode& rule, std::string_view key, const std::vector<std::string>& texts) {
-  rules::YamlNode* node = member_of(rule, key);
-  if (node == nullptr) return;
-  if (texts.empty()) {
-    std::erase_if(rule.entries, [&](const rules::YamlEntry& e) { return e.key.text == key; });
-    return;
-  }
-  node->kind = rules::YamlNode::Kind::sequence;
-  node->text.clear();
-  node->items.clear();
-  for (const std::string& text : texts) node->items.push_back(scalar_of(text, false));
-}
-
-/// The rule as a proposal has it; its id and `remove: true` if it goes.
-rules::YamlNode rule_of(const Proposal& proposal, const rules::YamlNode* rule) {
-  rules::YamlNode changed;
-  if (rule == nullptr || proposal.require.empty()) {
-    changed.kind = rules::YamlNode::Kind::map;
-    changed.entries.push_back({scalar_of("id", true), scalar_of(proposal.rule, true)});
-    changed.entries.push_back({scalar_of("remove", true), scalar_of("true", true)});
-    return changed;
-  }
-  changed = *rule;
-  set_list(changed, "require", proposal.require);
-  set_list(changed, "unless", proposal.unless);
-  if (rules::YamlNode* score = member_of(changed, "score");
-      score != nullptr && proposal.dropped_term >= 0) {
-    score->items.erase(score->items.begin() + proposal.dropped_term);
-    if (score->items.empty())
-      std::erase_if(changed.entries,
-                    [](const rules::YamlEntry& e) { return e.key.text == "score"; });
-  }
-  return changed;
-}
-
 }  // namespace
 
 std::vector<Proposal> propose(const RuleBase& rules, std::span<const Sample> samples,
                               std::span<const SamplePart> parts, const ProposeOptions& options,
                               const ForEachShare& for_each) {
   return Proposer(rules, samples, parts, options, for_each).run();
-}
-
-std::string to_yaml(const std::vector<Proposal>& proposals, const std::string& merged) {
-  const rules::Source source("merged", merged);
-  rules::Findings findings(source);
-  auto root = rules::parse_yaml({0, merged.size()}, findings);
-  std::string text;
-  for (const Proposal& proposal : proposals) {
-    const rules::YamlNode* rule = nullptr;
-    if (rules::YamlNode* all = root ? member_of(*root, "rules") : nullptr)
-      for (rules::YamlNode& item : all->items)
-        if (const rules::YamlNode* id = member_of(item, "id"); id && id->text == proposal.rule)
-          rule = &item;
-    rules::YamlNode top, list;
-    top.kind = rules::YamlNode::Kind::map;
-    list.kind = rules::YamlNode::Kind::sequence;
-    list.items.push_back(rule_of(proposal, rule));
-    top.entries.push_back({scalar_of("rules", true), std::move(list)});
-    text += fmt::format("# {}: {:+.4f} on all buildings, {:+.4f} on held-out folds, {} of them\n",
-                        proposal.what, proposal.gain, proposal.held_out_gain, proposal.folds);
-    text += rules::to_yaml(top) + "\n";
-  }
-  return text;
 }
 
 }  // namespace oriel

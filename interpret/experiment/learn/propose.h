@@ -18,7 +18,9 @@ struct Proposal {
   /// "drop 'height <= 3 m' of ledge.overhead", "add 'width <= 2.4 m' to window.in_wall".
   std::string what;
   std::string rule;
-  /// The conditions of the rule after the change; nothing of a rule that is dropped as a whole.
+  /// The rule is dropped as a whole.
+  bool drops_rule = false;
+  /// The conditions of the rule after the change; nothing of one that is dropped.
   std::vector<std::string> require, unless;
   /// The term of its score that is dropped, or -1.
   int dropped_term = -1;
@@ -45,9 +47,5 @@ struct ProposeOptions {
 std::vector<Proposal> propose(const RuleBase& rules, std::span<const Sample> samples,
                               std::span<const SamplePart> parts, const ProposeOptions& options,
                               const ForEachShare& for_each = for_each_in_turn);
-
-/// The rules of the proposals, each as a list of one that can be put under `rules:` of a pack that
-/// extends the other. `merged` is merge_pack_file() of the pack.
-std::string to_yaml(const std::vector<Proposal>& proposals, const std::string& merged);
 
 }  // namespace oriel

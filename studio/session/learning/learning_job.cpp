@@ -47,14 +47,21 @@ StudioJson params_of_learnt(const Learnt& learnt, const RuleBase& rules) {
   return list;
 }
 
-StudioJson proposals_json(const std::vector<Proposal>& proposals) {
+StudioJson proposal_text_json(const ProposalText& made) {
+  return {{"yaml", made.yaml}, {"text", made.text}, {"why_not", made.why_not}};
+}
+
+StudioJson proposals_json(const LearningTask& task, const std::vector<Proposal>& proposals) {
   StudioJson list = StudioJson::array();
-  for (const Proposal& proposal : proposals)
-    list.push_back({{"what", proposal.what},
+  for (const Proposal& proposal : proposals) {
+    StudioJson json{{"what", proposal.what},
                     {"rule", proposal.rule},
                     {"gain", rounded(proposal.gain, 4)},
                     {"held_out_gain", rounded(proposal.held_out_gain, 4)},
-                    {"folds", proposal.folds}});
+                    {"folds", proposal.folds}};
+    json.update(proposal_text_json(text_with_proposal(task.rules, task.text, task.file, proposal)));
+    list.push_back(std::move(json));
+  }
   return list;
 }
 
@@ -78,6 +85,13 @@ void LearningJob::start(LearningTask task) {
 }
 
 void LearningJob::stop() { is_stopped_ = true; }
+
+StudioJson LearningJob::accept(std::size_t proposal, const std::string& text) const {
+  const std::lock_guard lock(mutex_);
+  if (!proposed_for_ || proposal >= proposals_.size())
+    throw RefusedRequest(409, "there is no such proposal; learn again");
+  return proposal_text_json(text_with_proposal(*proposed_for_, text, file_, proposals_[proposal]));
+}
 
 StudioJson LearningJob::json() const {
   const std::lock_guard lock(mutex_);
@@ -144,11 +158,14 @@ void LearningJob::finish(const LearningTask& task, const Learnt& learnt,
                     {"summary", summary_of(learnt)},
                     {"report", to_text(learnt, task.rules)},
                     {"params", params_of_learnt(learnt, task.rules)},
-                    {"proposals", proposals_json(proposals)},
+                    {"proposals", proposals_json(task, proposals)},
                     {"issues", issues_json(issues)}};
   const std::lock_guard lock(mutex_);
   learnt_ = std::make_shared<const Learnt>(learnt);
   learnt_from_ = task.rules.sha256();
+  proposals_ = proposals;
+  proposed_for_ = task.rules;
+  file_ = task.file;
   result_ = std::move(result);
   done_ = all_;
   state_ = State::done;

@@ -18,8 +18,8 @@ namespace oriel::studio {
 /// What is learnt, and from what.
 struct LearningTask {
   RuleBase rules;
-  /// The pack's own text.
-  std::string text;
+  /// The pack's own text, and the path that it has or will have.
+  std::string text, file;
   std::shared_ptr<const SampleList> samples;
   LearnOptions options;
   /// Changes of rules are looked for, too.
@@ -40,6 +40,9 @@ class LearningJob {
   void start(LearningTask task);
   /// Ends it as soon as the step at hand can be left.
   void stop();
+  /// The change of rules with that number among the proposals, made in a text that may have been
+  /// edited meanwhile: {yaml, text, why_not}. Throws RefusedRequest 409 if there is none.
+  [[nodiscard]] StudioJson accept(std::size_t proposal, const std::string& text) const;
   /// {state, done, all, text, summary, report, params, proposals, issues}.
   [[nodiscard]] StudioJson json() const;
   /// What was learnt last with these rules, if anything was.
@@ -60,6 +63,10 @@ class LearningJob {
   StudioJson result_;
   std::shared_ptr<const Learnt> learnt_;
   std::string learnt_from_;
+  /// Changes of rules that were proposed last, the pack that they were proposed for, and its path.
+  std::vector<Proposal> proposals_;
+  std::optional<RuleBase> proposed_for_;
+  std::string file_;
   std::atomic<bool> is_stopped_ = false;
   std::thread thread_;
 };

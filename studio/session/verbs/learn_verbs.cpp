@@ -116,11 +116,14 @@ StudioJson answer_curve(Desk& desk, const RequestBody& body) {
 
 StudioJson answer_learn(Desk& desk, const RequestBody& body) {
   const bool proposes = body.flag("propose");
+  if (body.has("accept"))
+    return desk.learning.accept(body.number("accept", kMostQuestions, "proposal"),
+                                body.text("text"));
   if (body.flag("stop")) {
     desk.learning.stop();
   } else if (body.has("objective") || body.has("params") || proposes) {
     const auto all = desk.runner.need_current();
-    LearningTask task{all->rules, all->text, samples_with_truth(desk),
+    LearningTask task{all->rules, all->text, desk.file.name(),     samples_with_truth(desk),
                       {},         proposes,  desk.options.for_each};
     task.options.objective = asked_objective(body, all->rules);
     task.options.params = body.texts("params");

@@ -64,6 +64,28 @@ TEST_SUITE("studio/session") {
     CHECK(bench.refusal("learn", R"({"objective": "<img>"})").first == 400);
   }
 
+  TEST_CASE("a proposal of another rule is a text to accept with the labels promised") {
+    StudioBench bench;
+    const double before = bench.pack(kSmallPack)["score"]["macro_f1"];
+    CHECK(bench.refusal("learn", R"({"accept": 0, "text": ""})").first == 409);
+    bench.ask("learn", {{"objective", "macro_f1"}, {"propose", true}});
+    const json learnt = wait_for_learning(bench);
+    REQUIRE(learnt["state"] == "done");
+    for (const json& proposal : learnt["proposals"]) {
+      CAPTURE(proposal.dump());
+      REQUIRE(proposal["why_not"] == "");
+      const json after = bench.pack(proposal["text"]);
+      CHECK(after["is_good"] == true);
+      CHECK(after["score"]["macro_f1"].get<double>() - before ==
+            doctest::Approx(proposal["gain"].get<double>()).epsilon(0.01));
+    }
+    if (learnt["proposals"].empty()) return;
+    const json later =
+        bench.ask("learn", {{"accept", 0}, {"text", std::string(kSmallPack) + "# mine\n"}});
+    CHECK(later["text"] == learnt["proposals"][0]["text"].get<std::string>() + "# mine\n");
+    CHECK(bench.ask("learn", {{"accept", 0}, {"text", later["text"]}})["text"] == "");
+  }
+
   TEST_CASE("learning ends when it is told to and without truth it does not begin") {
     StudioBench bench;
     bench.ask("learn", {{"objective", "macro_f1"}});
