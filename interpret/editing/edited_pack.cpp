@@ -9,7 +9,10 @@
 #include "interpret/yaml/yaml_tree.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -158,6 +161,56 @@ EditedPack::~EditedPack() = default;
 EditedPack::EditedPack(EditedPack&&) noexcept = default;
 EditedPack& EditedPack::operator=(EditedPack&&) noexcept = default;
 
+namespace {
+
+bool is_same_file(const std::string& p, const std::string& q) {
+  std::error_code problem;
+  return p == q || std::filesystem::weakly_canonical(p, problem) ==
+                       std::filesystem::weakly_canonical(q, problem);
+}
+
+/// Collects the places of a name in files.
+class Renamer {
+ public:
+  Renamer(const rules::PackWord& word, const std::string& name)
+      : word_(word), sort_(rules::declared_sort(word)), name_(name) {}
+
+  void add(const rules::PackLayers& of_file) {
+    const rules::Source& source = of_file.top().source;
+    FileEdits changes{source.file(), source.text(), {}};
+    for (const TextSpan where : rules::places_of(of_file, sort_, word_.name))
+      changes.edits.push_back({where, name_});
+    if (!changes.edits.empty()) renaming_.files.push_back(std::move(changes));
+  }
+
+  /// If the file stands upon the pack of the name, whatever is between.
+  void add_upon(const rules::PackLayers& of_file, const std::string& pack) {
+    const auto& all = of_file.all();
+    const bool is_upon = std::any_of(
+        std::next(all.begin()), all.end(),
+        [&](const rules::PackLayer& layer) { return is_same_file(layer.source.file(), pack); });
+    if (!is_upon) return;
+    if (const rules::DeclaredName* taken = of_file.find(sort_, name_);
+        taken != nullptr && name_ != word_.name && renaming_.refusal.empty())
+      renaming_.refusal = fmt::format("'{}' is stated in {} already, which stands upon this pack",
+                                      name_, taken->layer->source.file());
+    add(of_file);
+  }
+
+  Renaming done() {
+    if (!renaming_.refusal.empty()) renaming_.files.clear();
+    return std::move(renaming_);
+  }
+
+ private:
+  const rules::PackWord& word_;
+  rules::WordSort sort_;
+  const std::string& name_;
+  Renaming renaming_;
+};
+
+}  // namespace
+
 const std::string& EditedPack::text() const { return state_->text; }
 const std::string& EditedPack::file() const { return state_->file; }
 const TextPlaces& EditedPack::places() const { return state_->places; }
@@ -225,34 +278,33 @@ std::optional<TextSpan> EditedPack::renameable(std::size_t offset) const {
   return TextSpan{word->span.begin, word->span.end};
 }
 
-Renaming EditedPack::rename(std::size_t offset, const std::string& name) const {
+Renaming EditedPack::rename(std::size_t offset, const std::string& name,
+                            const std::vector<std::string>& others) const {
   const rules::PackLayers& layers = state_->read_layers();
   const auto word = rules::word_at(layers, offset);
   if (!word) return {{}, "there is no name here that could be changed"};
   std::string refusal = rules::refuse_renaming(layers, *word);
   if (refusal.empty()) refusal = rules::refuse_name(layers, *word, name);
   if (!refusal.empty()) return {{}, std::move(refusal)};
-  const rules::WordSort sort = rules::declared_sort(*word);
-  Renaming renaming;
-  const auto add = [&](const rules::PackLayers& of_file) {
-    const rules::Source& source = of_file.top().source;
-    FileEdits changes{source.file(), source.text(), {}};
-    for (const TextSpan where : rules::places_of(of_file, sort, word->name))
-      changes.edits.push_back({where, name});
-    if (!changes.edits.empty()) renaming.files.push_back(std::move(changes));
-  };
-  add(layers);
-  if (kind() != Kind::pack || !file().ends_with(kYamlExtension)) return renaming;
+  Renamer renamer(*word, name);
+  renamer.add(layers);
+  if (kind() != Kind::pack || !file().ends_with(kYamlExtension)) return renamer.done();
   const std::string tests =
       file().substr(0, file().size() - kYamlExtension.size()) + std::string(kTestExtension);
-  auto text_of_tests = text_open_or_stored(tests, state_->open);
-  if (!text_of_tests) return renaming;
-  const rules::PackLayers of_tests(without_byte_order_mark(std::move(*text_of_tests)), tests,
-                                   [&](const std::string&) {
-                                     return rules::FoundPack{file(), text()};
-                                   });
-  add(of_tests);
-  return renaming;
+  if (auto text_of_tests = text_open_or_stored(tests, state_->open))
+    renamer.add(rules::PackLayers(without_byte_order_mark(std::move(*text_of_tests)), tests,
+                                  [&](const std::string&) {
+                                    return rules::FoundPack{file(), text()};
+                                  }));
+  for (const std::string& other : others) {
+    if (is_same_file(other, file()) || is_same_file(other, tests)) continue;
+    auto text_of_other = text_open_or_stored(other, state_->open);
+    if (!text_of_other || text_of_other->size() > rules::kMostBytes) continue;
+    const State upon(std::move(*text_of_other), other, state_->open);
+    if (upon.kind == Kind::pack || upon.kind == Kind::tests)
+      renamer.add_upon(rules::PackLayers(upon.text, upon.file, upon.finder()), file());
+  }
+  return renamer.done();
 }
 
 Checked<std::string> EditedPack::format() const {

@@ -53,7 +53,8 @@ struct FileEdits {
   std::vector<TextEdit> edits{};
 };
 
-/// What renaming changes: the edited text first, then the tests next to it; or why it cannot be.
+/// What renaming changes: the edited text first, then the tests next to it, then other files; or
+/// why it cannot be.
 struct Renaming {
   std::vector<FileEdits> files{};
   std::string refusal{};
@@ -96,7 +97,10 @@ class EditedPack {
   /// The name at `offset`, if it can be renamed: a param, class, macro, relation, group, fixture or
   /// rule that this pack alone states.
   [[nodiscard]] std::optional<TextSpan> renameable(std::size_t offset) const;
-  [[nodiscard]] Renaming rename(std::size_t offset, const std::string& name) const;
+  /// Among the files `others` (paths of packs and tests) those that stand upon this pack say the
+  /// new name, too; one that states that name already is a refusal.
+  [[nodiscard]] Renaming rename(std::size_t offset, const std::string& name,
+                                const std::vector<std::string>& others = {}) const;
 
   /// The text in canonical form, or nothing and the findings: a pack with errors is not formatted,
   /// nor is another file.

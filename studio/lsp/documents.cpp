@@ -103,4 +103,10 @@ bool OpenDocuments::has_dirty() const {
   return std::ranges::any_of(documents_, [](const auto& named) { return named.second.is_dirty; });
 }
 
+std::vector<std::string> OpenDocuments::uris() const {
+  std::vector<std::string> uris;
+  for (const auto& [uri, document] : documents_) uris.push_back(uri);
+  return uris;
+}
+
 }  // namespace oriel::studio

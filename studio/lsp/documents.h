@@ -49,6 +49,8 @@ class OpenDocuments {
   /// Those of which findings are to be told, by URI.
   [[nodiscard]] std::vector<OpenDocument*> dirty();
   [[nodiscard]] bool has_dirty() const;
+  /// Of all of them, sorted.
+  [[nodiscard]] std::vector<std::string> uris() const;
 
  private:
   /// What is known of a document that has changed, and of those that extend or test it.

@@ -7,6 +7,7 @@
 #include "studio/lsp/message_stream.h"
 #include "studio/lsp/protocol_json.h"
 #include "studio/lsp/rpc_error.h"
+#include "studio/lsp/workspace_folders.h"
 
 #include <algorithm>
 #include <array>
@@ -87,11 +88,13 @@ class LanguageServer {
   };
   /// The document of a request, and the place in it if one is asked about.
   AskedPlace asked(const JsonValue& params, bool has_position);
+  [[nodiscard]] std::vector<std::string> packs_beside(const std::string& file) const;
   [[nodiscard]] std::string uri_of(const DefinitionPlace& place, const std::string& here) const;
 
   MessageStream stream_;
   const LanguageServerOptions* options_;
   OpenDocuments documents_;
+  WorkspaceFolders folders_;
   Phase phase_ = Phase::before;
   bool knows_trees_ = false;
   bool knows_links_ = false;
@@ -161,6 +164,7 @@ void LanguageServer::take_notification(const std::string& method, const JsonValu
     if (method == "textDocument/didOpen") open(params);
     if (method == "textDocument/didChange") change(params);
     if (method == "textDocument/didClose") close(params);
+    if (method == "workspace/didChangeWorkspaceFolders") folders_.change(params);
   } catch (const JsonValue::exception&) {
     return;
   }
@@ -259,6 +263,7 @@ JsonValue LanguageServer::initialize(const JsonValue& params) {
   const JsonValue text = member_at(params, {"capabilities", "textDocument"});
   knows_trees_ = member_at(text, {"documentSymbol", "hierarchicalDocumentSymbolSupport"}) == true;
   knows_links_ = member_at(text, {"publishDiagnostics", "codeDescriptionSupport"}) == true;
+  folders_.open(params);
   phase_ = Phase::running;
   return {{"capabilities",
            {{"positionEncoding", "utf-16"},
@@ -269,7 +274,9 @@ JsonValue LanguageServer::initialize(const JsonValue& params) {
             {"documentSymbolProvider", true},
             {"documentFormattingProvider", true},
             {"renameProvider", {{"prepareProvider", true}}},
-            {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}}}},
+            {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},
+            {"workspace",
+             {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}}}},
           {"serverInfo", {{"name", "oriel"}, {"version", options_->version}}}};
 }
 
@@ -352,9 +359,19 @@ JsonValue LanguageServer::prepare_rename(const JsonValue& params) {
           {"placeholder", at.pack->text().substr(where->begin, where->end - where->begin)}};
 }
 
+/// Those that are open, and those in its folder, if the client works there.
+std::vector<std::string> LanguageServer::packs_beside(const std::string& file) const {
+  std::vector<std::string> files = folders_.yaml_files_beside(file);
+  for (const std::string& uri : documents_.uris()) files.push_back(path_of_uri(uri));
+  std::ranges::sort(files);
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
 JsonValue LanguageServer::rename(const JsonValue& params) {
   const AskedPlace at = asked(params, true);
-  const Renaming renaming = at.pack->rename(at.offset, params.at("newName").get<std::string>());
+  const Renaming renaming = at.pack->rename(at.offset, params.at("newName").get<std::string>(),
+                                            packs_beside(at.pack->file()));
   if (!renaming.refusal.empty()) throw RpcError(RpcCode::request_failed, renaming.refusal);
   JsonValue changes = JsonValue::object();
   for (const FileEdits& file : renaming.files) {

@@ -40,6 +40,12 @@ Json change_at(int line, int from, int to, const std::string& text) {
           {"text", text}};
 }
 
+std::string replaced_blanks(std::string path) {
+  for (std::size_t at = path.find(' '); at != std::string::npos; at = path.find(' '))
+    path.replace(at, 1, "%20");
+  return path;
+}
+
 int error_code(const Json& answer) {
   CAPTURE(answer.dump());
   REQUIRE(answer.contains("error"));
@@ -235,5 +241,72 @@ TEST_SUITE("studio/lsp") {
                   .contains("result"));
     }
     CHECK(client.result("shutdown").is_null());
+  }
+
+  TEST_CASE("a name is changed in all packs that stand upon its pack") {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / "oriel lsp folders";
+    fs::remove_all(folder);
+    fs::create_directories(folder / "packs");
+    const std::string upon = "schema: oriel/1\nextends: ";
+    const std::string header = "pack: {name: t, version: 1.0.0}\n";
+    const std::string city =
+        upon + "town.yaml\n" + header + "params: {sill: {value: 1 m}}   # not $sills\n";
+    const std::string village =
+        upon + "city.yaml\n" + header + "rules:\n  - {id: w, label: window, require: a > $sill}\n";
+    const std::string village_test =
+        "tests_for: village.yaml\ntests:\n  - {params: {sill: 0.8 m}}\n";
+    const std::string stranger = "schema: oriel/1\n" + header + "params: {sill: {value: 1 m}}\n";
+    const auto write = [&](const std::string& name, const std::string& text) {
+      std::ofstream(folder / name) << text;
+    };
+    write("packs/town.yaml", kText);
+    write("packs/city.yaml", city);
+    write("packs/village.yaml", "schema: oriel/1\n");
+    write("packs/village.test.yaml", village_test);
+    write("packs/stranger.yaml", stranger);
+    write("packs/broken.yaml", "extends: [town.yaml\n");
+    const auto uri = [&](const std::string& name) {
+      return "file://" + replaced_blanks((folder / name).string());
+    };
+    LspClient client;
+    (void)client.result("initialize",
+                        {{"capabilities", Json::object()},
+                         {"workspaceFolders", {{{"uri", uri("packs")}, {"name", "packs"}}}}});
+    client.open(uri("packs/town.yaml"), kText);
+    // As the editor has it, not as it is on the disk.
+    client.open(uri("packs/village.yaml"), village);
+    const auto rename = [&](const std::string& name) {
+      Json request = at(uri("packs/town.yaml"), 9, 48);
+      request["newName"] = name;
+      return client.request("textDocument/rename", request);
+    };
+    const Json changes = rename("parapet")["result"]["changes"];
+    REQUIRE(changes.contains(uri("packs/city.yaml")));
+    REQUIRE(changes.contains(uri("packs/village.yaml")));
+    CHECK(changes.contains(uri("packs/town.yaml")));
+    CHECK_FALSE(changes.contains(uri("packs/stranger.yaml")));
+    CHECK(edited(city, changes[uri("packs/city.yaml")])
+              .find("{parapet: {value: 1 m}}   # not $sills") != std::string::npos);
+    CHECK(edited(village, changes[uri("packs/village.yaml")]).find("a > $parapet") !=
+          std::string::npos);
+    CHECK(changes.size() <= 4);
+    // Folders come and go.
+    client.notify(
+        "workspace/didChangeWorkspaceFolders",
+        {{"event",
+          {{"removed", {{{"uri", uri("packs")}, {"name", "packs"}}}}, {"added", Json::array()}}}});
+    CHECK(rename("parapet")["result"]["changes"].size() == 2);
+    client.notify(
+        "workspace/didChangeWorkspaceFolders",
+        {{"event",
+          {{"added", {{{"uri", uri("packs")}, {"name", "packs"}}}}, {"removed", Json::array()}}}});
+    write("packs/city.yaml", city + "macros: {low: a < 1 m}\n");
+    write("packs/tall.yaml", upon + "town.yaml\n" + header + "params: {parapet: {value: 1 m}}\n");
+    const Json refused = rename("parapet");
+    CHECK(error_code(refused) == -32803);
+    CHECK(refused["error"]["message"].get<std::string>().find("tall.yaml") != std::string::npos);
+    client.end();
+    fs::remove_all(folder);
   }
 }
