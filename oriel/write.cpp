@@ -3,6 +3,7 @@
 #include "kernel/base/issue.h"
 #include "kernel/base/log.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
+#include "kernel/io/gltf/glb_writer.h"
 
 #include <algorithm>
 #include <utility>
@@ -26,7 +27,8 @@ Format checked_format(const std::string& path, std::span<const Document> documen
   const auto format = format_of(path);
   if (!format || *format == Format::citygml)
     refuse(path,
-           "names no format that can be written: .city.json, .city.jsonl, .obj, .off, .ply, .stl");
+           "names no format that can be written: .city.json, .city.jsonl, .obj, .off, .ply, .stl, "
+           ".glb");
   for (const Document& document : documents) {
     const bool is_stream = document.format == Format::cityjson_seq;
     const bool becomes_stream = *format == Format::cityjson_seq;
@@ -62,6 +64,7 @@ std::string mesh_text(Format format, const MeshSource& mesh, StlSolids solids) {
   return format == Format::obj   ? write_obj(mesh)
          : format == Format::off ? write_off(mesh)
          : format == Format::ply ? write_ply(mesh)
+         : format == Format::glb ? write_glb(mesh)
                                  : write_stl(mesh, solids);
 }
 

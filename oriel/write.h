@@ -34,14 +34,14 @@ std::string write(const Document& document, const OutputRecord& output);
 /// was rejected. `result` is what label() or segment() said of it, with all attributes measured.
 std::vector<FeatureRecord> feature_records(const Building& building, const PipelineResult& result);
 
-/// The text of a mesh file, OBJ, OFF, PLY or STL, of what append_mesh() gathered of all its
+/// The text of a mesh file, OBJ, OFF, PLY, STL or GLB, of what append_mesh() gathered of all its
 /// records.
 std::string mesh_text(Format format, const MeshSource& mesh,
                       StlSolids solids = StlSolids::by_label);
 
 /// Writes the records of one file, in their order, to the file `path`, which appears when it is
-/// whole. Its name says the format: CityJSON (.city.json), CityJSONSeq (.city.jsonl), OBJ, OFF, PLY
-/// or STL, whose solids `solids` names. CityGML becomes either of the first two. Throws InputError
+/// whole. Its name says the format: CityJSON (.city.json), CityJSONSeq (.city.jsonl), OBJ, OFF, PLY,
+/// GLB or STL, whose solids `solids` names. CityGML becomes either of the first two. Throws InputError
 /// E106 for another name, and for a CityJSONSeq that would become a CityJSON file or the other way
 /// round; OutputError E601 if the file cannot be written.
 void write(const std::string& path, std::span<const Document> documents,

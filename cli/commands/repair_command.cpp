@@ -143,7 +143,7 @@ void add_repair(CLI::App& app, Action& action) {
       ->required();
   command
       ->add_option("--to", arguments->to, "Format to write (default: from the name of the output)")
-      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
+      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl", "glb"}));
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
                     "Write the solids without the semantics of the input");
   command->add_option("--report", arguments->report,

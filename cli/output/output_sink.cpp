@@ -28,6 +28,8 @@ const char* extension_of(Format format) {
       return ".ply";
     case Format::stl:
       return ".stl";
+    case Format::glb:
+      return ".glb";
   }
   return "";
 }
@@ -54,7 +56,7 @@ OutputSink::OutputSink(std::string out, const std::string& to, std::vector<std::
   if (!is_folder_ && out_ != "-" && !to_ && !format_of(out_))
     throw CLI::ValidationError(
         "-o", fmt::format("'{}' has no known extension; end it in .city.json, .city.jsonl, .obj, "
-                          ".off, .ply or .stl, or say the format with --to",
+                          ".off, .ply, .stl or .glb, or say the format with --to",
                           out_));
   std::set<std::string> paths;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {

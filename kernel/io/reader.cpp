@@ -25,6 +25,9 @@ Format format_to_read(const std::string& path, const ReadOptions& options) {
   if (*format == Format::stl)
     throw InputError(
         detail::error_in(name, {Code::E106, "STL is written only: it has no polygons to read"}));
+  if (*format == Format::glb)
+    throw InputError(
+        detail::error_in(name, {Code::E106, "GLB is written only: its triangles are for viewers"}));
   return *format;
 }
 

@@ -8,7 +8,7 @@ namespace oriel {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Format>, 9> kExtensions{{
+constexpr std::array<std::pair<std::string_view, Format>, 10> kExtensions{{
     {".json", Format::cityjson},
     {".jsonl", Format::cityjson_seq},
     {".gml", Format::citygml},
@@ -18,9 +18,10 @@ constexpr std::array<std::pair<std::string_view, Format>, 9> kExtensions{{
     {".off", Format::off},
     {".ply", Format::ply},
     {".stl", Format::stl},
+    {".glb", Format::glb},
 }};
 
-constexpr std::array<std::pair<std::string_view, Format>, 7> kNames{{
+constexpr std::array<std::pair<std::string_view, Format>, 8> kNames{{
     {"cityjson", Format::cityjson},
     {"cityjsonseq", Format::cityjson_seq},
     {"citygml", Format::citygml},
@@ -28,6 +29,7 @@ constexpr std::array<std::pair<std::string_view, Format>, 7> kNames{{
     {"off", Format::off},
     {"ply", Format::ply},
     {"stl", Format::stl},
+    {"glb", Format::glb},
 }};
 
 std::string lower(std::string_view text) {

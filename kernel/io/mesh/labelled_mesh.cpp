@@ -148,11 +148,15 @@ void append_mesh(MeshSource& mesh, const Document& document,
     bare.building = building.id;
     const auto found = labels_of.find(building.id);
     const LabelledBuilding& labels = found == labels_of.end() ? bare : *found->second;
-    if (labels.geometry)
-      add_solid(mesh, *labels.geometry, building.frame.origin_m, labels);
-    else
-      add_polygons(mesh, building, labels);
+    append_building(mesh, building, labels);
   }
+}
+
+void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels) {
+  if (labels.geometry)
+    add_solid(mesh, *labels.geometry, building.frame.origin_m, labels);
+  else
+    add_polygons(mesh, building, labels);
 }
 
 }  // namespace oriel

@@ -18,6 +18,9 @@ namespace oriel {
 void append_mesh(MeshSource& mesh, const Document& document,
                  const std::vector<LabelledBuilding>& labelled);
 
+/// The same for one building.
+void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels);
+
 /// Wavefront OBJ: an `o` for each building, a `g label_id` for each feature. Faces with holes are
 /// triangulated, others stay as they are. Numbers read back to the same doubles.
 std::string write_obj(const MeshSource& mesh);

@@ -1,0 +1,72 @@
+#include "kernel/io/gltf/glb_buffers.h"
+
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace oriel::detail {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+/// EXT_structural_metadata wants its views at multiples of eight; for the others four would do.
+constexpr std::size_t kAlignment = 8;
+
+void pad(std::string& bytes, std::size_t to, char with) {
+  while (bytes.size() % to != 0) bytes += with;
+}
+
+void append_number(std::string& bytes, std::size_t number) {
+  for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xFFU);
+}
+
+void append_chunk(std::string& file, std::string_view kind, const std::string& bytes) {
+  append_number(file, bytes.size());
+  file += kind;
+  file += bytes;
+}
+
+}  // namespace
+
+int GlbBuffers::add_view(std::string_view bytes, ViewTarget target, std::size_t stride) {
+  pad(bytes_, kAlignment, '\0');
+  ordered_json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
+  if (stride > 0) view["byteStride"] = stride;
+  if (target != ViewTarget::none) view["target"] = static_cast<int>(target);
+  bytes_ += bytes;
+  views_.push_back(std::move(view));
+  return static_cast<int>(views_.size()) - 1;
+}
+
+int GlbBuffers::add_accessor(int view, NumberType component, const char* type, std::size_t count,
+                             ordered_json more) {
+  ordered_json accessor{{"bufferView", view},
+                        {"componentType", static_cast<int>(component)},
+                        {"count", count},
+                        {"type", type}};
+  accessor.update(more);
+  accessors_.push_back(std::move(accessor));
+  return static_cast<int>(accessors_.size()) - 1;
+}
+
+std::string glb_file(const ordered_json& head, const std::string& bytes) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  std::string text = head.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  pad(text, 4, ' ');
+  std::string padded = bytes;
+  pad(padded, 4, '\0');
+  const std::size_t size =
+      kHeader + kChunkHeader + text.size() + (padded.empty() ? 0 : kChunkHeader + padded.size());
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw std::length_error("a GLB has 4 GB at most");
+  std::string file = "glTF";
+  file.reserve(size);
+  append_number(file, 2);
+  append_number(file, size);
+  append_chunk(file, "JSON", text);
+  if (!padded.empty()) append_chunk(file, std::string_view("BIN\0", 4), padded);
+  return file;
+}
+
+}  // namespace oriel::detail

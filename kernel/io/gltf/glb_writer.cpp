@@ -1,0 +1,204 @@
+#include "kernel/io/gltf/glb_writer.h"
+
+#include "kernel/io/gltf/colours.h"
+#include "kernel/io/gltf/glb_buffers.h"
+#include "kernel/io/gltf/property_table.h"
+#include "kernel/model/version.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace oriel {
+
+using detail::bytes_of;
+using detail::GlbBuffers;
+using nlohmann::ordered_json;
+
+namespace {
+
+using Point = FlatMesh::Point;
+
+/// Ids of features are numbers with 24 binary digits, as vertices have no larger whole ones.
+constexpr std::size_t kMostFeatures = 1U << 24U;
+/// The colour of lines, nearly black.
+constexpr double kLineShade = 0.05;
+
+/// z up as y up.
+Point turned(const Point& p) { return {p[0], p[2], p[1] == 0 ? 0 : -p[1]}; }
+
+std::vector<Point> turned(const std::vector<Point>& points) {
+  std::vector<Point> out;
+  out.reserve(points.size());
+  for (const Point& point : points) out.push_back(turned(point));
+  return out;
+}
+
+/// Least and largest coordinates, which accessors of positions have.
+ordered_json limits_of(const std::vector<Point>& points) {
+  Point least = points.front(), most = points.front();
+  for (const Point& point : points)
+    for (std::size_t i = 0; i < 3; ++i) {
+      least[i] = std::min(least[i], point[i]);
+      most[i] = std::max(most[i], point[i]);
+    }
+  return {{"min", least}, {"max", most}};
+}
+
+/// Writes one mesh.
+class GlbWriter {
+ public:
+  GlbWriter(const FlatMesh& mesh, const GlbOptions& options) : mesh_(mesh), options_(options) {
+    if (mesh.features.size() > kMostFeatures)
+      throw std::length_error("a GLB has 16,777,216 features at most");
+  }
+
+  std::string write(Vec3 translation_m) {
+    ordered_json head{
+        {"asset", {{"version", "2.0"}, {"generator", std::string("oriel ") + kVersion}}}};
+    if (mesh_.triangles.empty()) {
+      head["scene"] = 0;
+      head["scenes"] = ordered_json::array({ordered_json::object()});
+      return detail::glb_file(head, "");
+    }
+    const ordered_json primitives = this->primitives();
+    head["extensionsUsed"] = {"EXT_mesh_features", "EXT_structural_metadata"};
+    head["extensions"]["EXT_structural_metadata"] =
+        detail::structural_metadata(mesh_.features, labels(), surfaces(), buffers_);
+    head["scene"] = 0;
+    head["scenes"] = ordered_json::array({{{"nodes", {0}}}});
+    ordered_json node{{"mesh", 0}};
+    const Vec3 t = translation_m;
+    if (t != Vec3{}) node["translation"] = {t.x, t.z, 0 - t.y};
+    head["nodes"] = ordered_json::array({node});
+    head["meshes"] = ordered_json::array({{{"primitives", primitives}}});
+    head["materials"] = materials();
+    head["accessors"] = buffers_.accessors();
+    head["bufferViews"] = buffers_.views();
+    head["buffers"] = ordered_json::array({{{"byteLength", buffers_.bytes().size()}}});
+    return detail::glb_file(head, buffers_.bytes());
+  }
+
+ private:
+  ordered_json primitives() {
+    using ViewTarget = GlbBuffers::ViewTarget;
+    using NumberType = GlbBuffers::NumberType;
+    const auto vertices = [&](const auto& values, NumberType component, const char* type,
+                              std::size_t stride, const ordered_json& more) {
+      return buffers_.add_accessor(
+          buffers_.add_view(bytes_of(values), ViewTarget::vertices, stride), component, type,
+          values.size(), more);
+    };
+    const std::vector<Point> points = turned(mesh_.points);
+    const std::vector<float> ids(mesh_.feature_of.begin(), mesh_.feature_of.end());
+    ordered_json attributes;
+    attributes["POSITION"] =
+        vertices(points, NumberType::single, "VEC3", sizeof(Point), limits_of(points));
+    const ordered_json lines_attributes = attributes;
+    attributes["NORMAL"] = vertices(turned(mesh_.normals), NumberType::single, "VEC3",
+                                    sizeof(Point), ordered_json::object());
+    if (options_.colours != GlbColours::none)
+      attributes["COLOR_0"] =
+          vertices(colours(), NumberType::byte_u, "VEC4", 4, {{"normalized", true}});
+    attributes["_FEATURE_ID_0"] =
+        vertices(ids, NumberType::single, "SCALAR", sizeof(float), ordered_json::object());
+    ordered_json all = ordered_json::array();
+    all.push_back({{"attributes", attributes},
+                   {"indices", indices(mesh_.triangles)},
+                   {"material", 0},
+                   {"mode", 4},
+                   {"extensions", {{"EXT_mesh_features", feature_ids()}}}});
+    if (options_.has_outlines)
+      all.push_back({{"attributes", lines_attributes},
+                     {"indices", indices(mesh_.edges)},
+                     {"material", 1},
+                     {"mode", 1}});
+    return all;
+  }
+
+  [[nodiscard]] ordered_json feature_ids() const {
+    const ordered_json set{
+        {"featureCount", mesh_.features.size()}, {"attribute", 0}, {"propertyTable", 0}};
+    return {{"featureIds", ordered_json::array({set})}};
+  }
+
+  /// Numbers of points, short ones if they fit.
+  template <class Tuples>
+  int indices(const Tuples& tuples) {
+    constexpr std::size_t kMostShort = 65'535;  // the number 65,535 itself says "begin anew"
+    const std::size_t corners = tuples.front().size();
+    int view = 0;
+    const bool is_short = mesh_.points.size() <= kMostShort;
+    if (is_short) {
+      std::vector<std::uint16_t> numbers;
+      for (const auto& tuple : tuples)
+        for (const std::uint32_t v : tuple) numbers.push_back(static_cast<std::uint16_t>(v));
+      view = buffers_.add_view(bytes_of(numbers), GlbBuffers::ViewTarget::indices);
+    } else {
+      view = buffers_.add_view(bytes_of(tuples), GlbBuffers::ViewTarget::indices);
+    }
+    return buffers_.add_accessor(
+        view, is_short ? GlbBuffers::NumberType::short_u : GlbBuffers::NumberType::int_u, "SCALAR",
+        corners * tuples.size());
+  }
+
+  [[nodiscard]] std::vector<std::array<std::uint8_t, 4>> colours() const {
+    std::vector<std::array<std::uint8_t, 4>> of_feature, out;
+    for (const FlatFeature& feature : mesh_.features)
+      of_feature.push_back(detail::linear(options_.colours == GlbColours::by_label
+                                              ? detail::colour_of_label(feature.label)
+                                              : detail::colour_of_surface(feature.surface)));
+    out.reserve(mesh_.feature_of.size());
+    for (const std::uint32_t feature : mesh_.feature_of) out.push_back(of_feature[feature]);
+    return out;
+  }
+
+  [[nodiscard]] ordered_json materials() const {
+    ordered_json all = ordered_json::array();
+    all.push_back({{"name", "faces"},
+                   {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}});
+    if (options_.has_outlines)
+      all.push_back({{"name", "edges"},
+                     {"pbrMetallicRoughness",
+                      {{"baseColorFactor", {kLineShade, kLineShade, kLineShade, 1}},
+                       {"metallicFactor", 0},
+                       {"roughnessFactor", 1}}}});
+    return all;
+  }
+
+  [[nodiscard]] std::set<std::string> labels() const {
+    std::set<std::string> names = options_.labels;
+    for (const FlatFeature& feature : mesh_.features) names.insert(feature.label);
+    return names;
+  }
+  [[nodiscard]] std::set<std::string> surfaces() const {
+    std::set<std::string> names = options_.surfaces;
+    for (const FlatFeature& feature : mesh_.features) names.insert(feature.surface);
+    return names;
+  }
+
+  const FlatMesh& mesh_;
+  const GlbOptions& options_;
+  GlbBuffers buffers_;
+};
+
+}  // namespace
+
+std::string write_glb(const FlatMesh& mesh, Vec3 translation_m, const GlbOptions& options) {
+  return GlbWriter(mesh, options).write(translation_m);
+}
+
+std::string write_glb(const MeshSource& source, const GlbOptions& options) {
+  Box box;
+  for (const MeshPolygon& polygon : source.polygons)
+    for (const auto& ring : polygon.rings)
+      for (const int v : ring) box.grow(source.points[static_cast<std::size_t>(v)]);
+  if (box.is_empty()) return write_glb(FlatMesh{}, {}, options);
+  const Vec3 middle = 0.5 * (box.min + box.max);
+  const Vec3 origin{std::floor(middle.x), std::floor(middle.y), std::floor(middle.z)};
+  return write_glb(flat_mesh(source, origin), origin, options);
+}
+
+}  // namespace oriel

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "kernel/io/gltf/flat_mesh.h"
+#include "kernel/mesh/mesh.h"
+#include "kernel/model/vec3.h"
+
+#include <set>
+#include <string>
+
+namespace oriel {
+
+/// What gives faces their colour.
+enum class GlbColours { by_label, by_surface, none };
+
+/// How a GLB is written.
+struct GlbOptions {
+  GlbColours colours = GlbColours::by_label;
+  /// The edges of the polygons come as lines, too.
+  bool has_outlines = false;
+  /// Labels and types of surfaces that the enumerations name besides those of the mesh, so that
+  /// several files have the same ones.
+  std::set<std::string> labels{};
+  std::set<std::string> surfaces{};
+};
+
+/// A binary glTF 2.0 file of one mesh, y up as glTF wants it, with a translation of its node by
+/// `translation_m` (z up). Every vertex has its feature as `_FEATURE_ID_0` (EXT_mesh_features), a
+/// row of a property table (EXT_structural_metadata) with `building`, `id`, `label` and `surface`
+/// (enumerations, sorted by name), `score` (-1: none), `rule` and `height`. A mesh without
+/// triangles is a file with an empty scene. The same mesh gives the same bytes. Throws
+/// std::length_error for a mesh with more than 2^24 features or 4 GB.
+std::string write_glb(const FlatMesh& mesh, Vec3 translation_m, const GlbOptions& options = {});
+
+/// The same of polygons in the coordinates of a file: points are taken from the middle of their
+/// box, in whole metres, which is the translation of the node.
+std::string write_glb(const MeshSource& source, const GlbOptions& options = {});
+
+}  // namespace oriel
