@@ -46,7 +46,7 @@ for bash, zsh and fish, and sample buildings in /usr/share/oriel/samples.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME liboriel-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-       libboost-dev libcgal-dev libexpat1-dev libfmt-dev libgmp-dev libmpfr-dev libnlopt-cxx-dev libopenmesh-dev
+       libboost-dev libcgal-dev libexpat1-dev libproj-dev libfmt-dev libgmp-dev libmpfr-dev libnlopt-cxx-dev libopenmesh-dev
        libsimdjson-dev libspdlog-dev libyaml-cpp-dev nettle-dev nlohmann-json3-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "oriel-doc")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "library to label and generalise 3D buildings (development files)

@@ -1,0 +1,217 @@
+#include "kernel/io/tiles/tileset_writer.h"
+
+#include "kernel/base/printable.h"
+#include "kernel/io/files/output_file.h"
+#include "kernel/io/tiles/tile_tree.h"
+#include "kernel/io/tiles/tileset_frame.h"
+#include "kernel/model/version.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel {
+
+using detail::Tile;
+using detail::TileItem;
+using detail::TilesetFrame;
+using nlohmann::ordered_json;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Boxes are larger than what is in them by so much, as vertices of tiles are single numbers.
+constexpr double kMargin_m = 0.001;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return;
+  Issue issue;
+  issue.code = Code::E601;
+  issue.sentence = "cannot be made: " + error.message();
+  issue.place.file = folder.string();
+  throw OutputError(std::move(issue));
+}
+
+/// The box of a box that is turned and moved.
+Box placed(const Box& box, const Placement& placement) {
+  Box out;
+  for (int corner = 0; corner < 8; ++corner)
+    out.grow(placement.placed({(corner & 1) != 0 ? box.max.x : box.min.x,
+                               (corner & 2) != 0 ? box.max.y : box.min.y,
+                               (corner & 4) != 0 ? box.max.z : box.min.z}));
+  return out;
+}
+
+ordered_json volume_of(const Box& box) {
+  const Vec3 middle = 0.5 * (box.min + box.max);
+  const Vec3 half = 0.5 * (box.max - box.min) + Vec3{kMargin_m, kMargin_m, kMargin_m};
+  return {{"box", {middle.x, middle.y, middle.z, half.x, 0, 0, 0, half.y, 0, 0, 0, half.z}}};
+}
+
+ordered_json matrix_of(const Placement& placement) {
+  ordered_json matrix = ordered_json::array();
+  for (const Vec3 column : placement.columns)
+    for (const double value : {column.x, column.y, column.z, 0.0}) matrix.push_back(value);
+  const Vec3 origin = placement.origin;
+  for (const double value : {origin.x, origin.y, origin.z, 1.0}) matrix.push_back(value);
+  return matrix;
+}
+
+/// What viewers are told of a tile.
+ordered_json schema() {
+  const ordered_json scale{{"description", "The content is drawn for 1 : scale"},
+                           {"type", "SCALAR"},
+                           {"componentType", "FLOAT64"},
+                           {"required", true}};
+  const ordered_json coarsest{{"description", "It would look the same up to 1 : coarsest"},
+                              {"type", "SCALAR"},
+                              {"componentType", "FLOAT64"},
+                              {"required", true}};
+  const ordered_json buildings{{"description", "How many buildings the content has"},
+                               {"type", "SCALAR"},
+                               {"componentType", "UINT32"},
+                               {"required", true}};
+  return {
+      {"id", "oriel_tileset"},
+      {"classes",
+       {{"tile",
+         {{"name", "Tile"},
+          {"properties", {{"scale", scale}, {"coarsest", coarsest}, {"buildings", buildings}}}}}}}};
+}
+
+/// Writes the files of one tileset.
+class TilesetWriter {
+ public:
+  TilesetWriter(std::string folder, const TileBuildings& buildings, const TilesetOptions& options)
+      : folder_(std::move(folder)), buildings_(buildings), options_(options) {
+    options_.glb.labels = buildings.labels();
+    options_.glb.surfaces = buildings.surfaces();
+    for (const double scale : options.scales) files_.scales.push_back({scale});
+  }
+
+  Checked<TilesetFiles> write() {
+    if (!choose_buildings()) return {std::nullopt, std::move(issues_)};
+    const Tile root = detail::tile_tree(items_, options_.scales.size(), options_.most_triangles);
+    ordered_json tree = json_of(root);
+    tree["transform"] = matrix_of(frame_->placement());
+    const ordered_json tileset{
+        {"asset", {{"version", "1.1"}, {"generator", std::string("oriel ") + kVersion}}},
+        {"schema", schema()},
+        {"geometricError", length(root.box.max - root.box.min) + root.error_m},
+        {"root", tree}};
+    make_folder(folder_);
+    write_file((fs::path(folder_) / "tileset.json").string(), tileset.dump(1) + "\n");
+    files_.buildings = items_.size();
+    return {std::move(files_), std::move(issues_)};
+  }
+
+ private:
+  /// False: there is no tileset, and an issue says why.
+  bool choose_buildings() {
+    std::vector<const TileEntry*> entries;
+    std::unordered_set<std::string> ids;
+    for (const TileEntry& entry : buildings_.entries()) {
+      if (ids.insert(entry.id).second)
+        entries.push_back(&entry);
+      else
+        issues_.push_back(building_issue(Severity::error, Code::E207, entry.id,
+                                         "an earlier building has this id: that one is shown"));
+    }
+    if (entries.empty()) {
+      issues_.push_back(building_issue(Severity::error, Code::E134, "", "no building to show"));
+      return false;
+    }
+    auto frame = TilesetFrame::of(entries, options_.crs);
+    issues_.insert(issues_.end(), frame.issues.begin(), frame.issues.end());
+    frame_ = std::move(frame.value);
+    if (!frame_) return false;
+    for (const TileEntry* entry : entries)
+      if (!place(*entry)) return false;
+    return true;
+  }
+
+  bool place(const TileEntry& entry) {
+    const auto placement = frame_->placement_of(entry);
+    if (!placement) {
+      issues_.push_back(building_issue(Severity::error, Code::E160, entry.id,
+                                       "has no place on the earth in this system"));
+      return false;
+    }
+    TileItem item{&entry, {}, {}};
+    for (const TileEntry::Stored& stored : entry.meshes)
+      item.boxes.push_back(placed(stored.box, *placement));
+    const Box& finest = item.boxes[entry.mesh_at.at(0)];
+    item.middle = 0.5 * (finest.min + finest.max);
+    items_.push_back(std::move(item));
+    placements_.push_back(*placement);
+    return true;
+  }
+
+  /// Writes the content of a tile and of those below.
+  ordered_json json_of(const Tile& tile) {
+    ordered_json out{{"boundingVolume", volume_of(tile.box)},
+                     {"geometricError", tile.error_m},
+                     {"refine", "REPLACE"}};
+    if (!tile.buildings.empty()) {
+      const double scale = options_.scales[tile.level];
+      out["metadata"] = {{"class", "tile"},
+                         {"properties",
+                          {{"scale", scale},
+                           {"coarsest", options_.scales[tile.coarsest_level]},
+                           {"buildings", tile.buildings.size()}}}};
+      out["content"] = {{"uri", write_content(tile)}};
+    }
+    for (const Tile& child : tile.children) out["children"].push_back(json_of(child));
+    return out;
+  }
+
+  std::string write_content(const Tile& tile) {
+    const std::string place = fmt::format("tiles/1-{}", options_.scales[tile.level]);
+    const std::string uri = fmt::format("{}/{}.glb", place, tile.cell);
+    make_folder(fs::path(folder_) / place);
+    Box box;
+    for (const std::size_t b : tile.buildings)
+      box.grow(items_[b].boxes[items_[b].entry->mesh_at[tile.level]]);
+    const Vec3 middle = 0.5 * (box.min + box.max);
+    FlatMesh mesh;
+    for (const std::size_t b : tile.buildings) {
+      Placement placement = placements_[b];
+      placement.origin = placement.origin - middle;
+      append(mesh, buildings_.mesh(items_[b].entry->stored_at(tile.level)), placement);
+    }
+    const std::string glb = write_glb(mesh, middle, options_.glb);
+    write_file((fs::path(folder_) / uri).string(), glb);
+    TilesetFiles::OfScale& of_scale = files_.scales[tile.level];
+    ++of_scale.tiles;
+    of_scale.buildings += tile.buildings.size();
+    of_scale.bytes += glb.size();
+    return uri;
+  }
+
+  std::string folder_;
+  const TileBuildings& buildings_;
+  TilesetOptions options_;
+  std::optional<TilesetFrame> frame_;
+  std::vector<TileItem> items_;
+  std::vector<Placement> placements_;  ///< parallel to `items_`
+  std::vector<Issue> issues_;
+  TilesetFiles files_;
+};
+
+}  // namespace
+
+Checked<TilesetFiles> write_tileset(const std::string& folder, const TileBuildings& buildings,
+                                    const TilesetOptions& options) {
+  return TilesetWriter(folder, buildings, options).write();
+}
+
+}  // namespace oriel

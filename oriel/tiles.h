@@ -1,0 +1,25 @@
+#pragma once
+
+#include "kernel/io/document.h"
+#include "kernel/io/tiles/tile_building.h"
+#include "kernel/io/tiles/tileset_writer.h"
+#include "oriel/series.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// The buildings of a record at all scales of a tileset (write_tileset), in their order. `made` is
+/// what series() made of the document for `scales`: a level is the solid that at() gives, and the
+/// distance between two levels is no further off than 5 mm (hausdorff_m). A
+/// building without levels looks at all scales as it was read; one without faces is left out.
+std::vector<TileBuilding> tile_buildings(const Document& document, const Series& made,
+                                         const std::vector<double>& scales);
+
+/// So many scales from the first to the last in equal ratios, rounded to three digits, each once:
+/// what lies between has fewer buildings that change at the same time. `levels` is at least 2,
+/// `last` greater than `first`.
+std::vector<double> scales_between(double first, double last, int levels);
+
+}  // namespace oriel
