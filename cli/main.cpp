@@ -102,6 +102,7 @@ int run(int argc, char** argv) {
   add_score(app, action);
   add_validate(app, action);
   add_view(app, action);
+  add_tiles(app, action);
   add_studio(app, action);
   add_split(app, action);
   add_merge(app, action);

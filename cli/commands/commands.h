@@ -30,6 +30,7 @@ void add_score(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 void add_studio(CLI::App& app, Action& action);
+void add_tiles(CLI::App& app, Action& action);
 void add_split(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
 void add_rules(CLI::App& app, Action& action);

@@ -12,9 +12,6 @@
 #include "oriel/rules.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -79,20 +76,6 @@ std::vector<std::string> profile_names(const TargetArguments& arguments) {
 void check_level(const std::string& option, const std::vector<Issue>& issues) {
   for (const Issue& issue : issues)
     if (issue.code == Code::R275) refuse_usage(option, issue.code, issue.sentence);
-}
-
-/// N of "1:N", "1 : N" or "N", at least 1; else `option` is refused with E125.
-double denominator_of(const std::string& text, const std::string& option) {
-  std::string number;
-  std::ranges::remove_copy(text, std::back_inserter(number), ' ');
-  if (number.starts_with("1:")) number.erase(0, 2);
-  double value = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
-      !std::isfinite(value))
-    refuse_usage(option, Code::E125,
-                 fmt::format("'{}' is not a scale: write 1:N with N >= 1, such as 1:2000", text));
-  return value;
 }
 
 /// What --scale or else --to-lod asks for, with --profile; with neither of them the level of the
@@ -264,18 +247,6 @@ class Generaliser final : public ProducingCommand {
   std::map<std::string, int> counts_;
 };
 
-/// Ascending; none stands twice.
-std::vector<double> scales_of(const std::vector<std::string>& texts) {
-  std::vector<double> scales;
-  for (const std::string& text : texts) scales.push_back(denominator_of(text, "--series"));
-  std::ranges::sort(scales);
-  const auto twin = std::ranges::adjacent_find(scales);
-  if (twin != scales.end())
-    refuse_usage("--series", Code::E125,
-                 fmt::format("the scale 1:{} is given twice; name each scale once", *twin));
-  return scales;
-}
-
 /// The profile of a series; nothing if it cannot be used, which is told.
 std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const RuleBase& rules,
                                     Report& report) {
@@ -283,7 +254,7 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
   if (!arguments.explain.empty() || !arguments.metrics.empty())
     refuse_usage("--series", Code::G414,
                  "does not work with --explain and --metrics, which are for one scale");
-  const std::vector<double> scales = scales_of(arguments.series);
+  const std::vector<double> scales = scales_of(arguments.series, "--series");
   if (arguments.target.profile.empty())
     return write_series(arguments, scales, std::nullopt, rules, report);
   const auto profile = load_profile_file(arguments.target.profile);

@@ -10,6 +10,9 @@
 #include "oriel/score.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
 #include <string>
 #include <thread>
 
@@ -65,6 +68,30 @@ void check_output_format(const RunOptions& arguments, const BatchCommand& comman
                         "other formats)",
                         to_string(written), path, to_string(*named),
                         is_stream ? ".city.jsonl" : ".city.json"));
+}
+
+double denominator_of(const std::string& text, const std::string& option) {
+  std::string number;
+  std::ranges::remove_copy(text, std::back_inserter(number), ' ');
+  if (number.starts_with("1:")) number.erase(0, 2);
+  double value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
+      !std::isfinite(value))
+    refuse_usage(option, Code::E125,
+                 fmt::format("'{}' is not a scale: write 1:N with N >= 1, such as 1:2000", text));
+  return value;
+}
+
+std::vector<double> scales_of(const std::vector<std::string>& texts, const std::string& option) {
+  std::vector<double> scales;
+  for (const std::string& text : texts) scales.push_back(denominator_of(text, option));
+  std::ranges::sort(scales);
+  const auto twin = std::ranges::adjacent_find(scales);
+  if (twin != scales.end())
+    refuse_usage(option, Code::E125,
+                 fmt::format("the scale 1:{} is given twice; name each scale once", *twin));
+  return scales;
 }
 
 CLI::Validator input_formats() {
@@ -302,7 +329,7 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   command.add_option("-o,--output", a.out,
                      "File, - for stdout, or a folder (ending in /) for several inputs");
   command.add_option("--to", a.to, "Format to write (default: from the name of the output)")
-      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
+      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl", "glb"}));
   add_features_argument(command, a.features);
   add_columns_argument(command, a.columns);
   add_safe_cells_argument(command, a.has_safe_cells);

@@ -35,6 +35,13 @@ struct LabellingArguments;
 void check_output_format(const RunOptions& arguments, const BatchCommand& command,
                          const std::string& path, Format written);
 
+/// N of "1:N", "1 : N" or "N", at least 1; else `option` is refused with E125.
+double denominator_of(const std::string& text, const std::string& option);
+
+/// The denominators of an option that takes several, ascending; one that is given twice is refused
+/// with E125.
+std::vector<double> scales_of(const std::vector<std::string>& texts, const std::string& option);
+
 /// What `--from` may be.
 CLI::Validator input_formats();
 

@@ -50,6 +50,7 @@ std::vector<WritingCommand> writing_commands() {
       {"segment",
        {"segment", "@/in.city.json", "--json", "-o", "@/out.json", "--features", "@/parts.jsonl"},
        house()},
+      {"tiles", {"tiles", "@/in.city.json", "-o", "@/tiles", "--scales", "1:500,1:5000"}, house()},
       {"label", label, house()},
       {"label onto old files", label, house(), {label}},
       {"label --timings",

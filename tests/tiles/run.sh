@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Makes tilesets and puts them before gltf-validator, 3d-tiles-tools and a browser (README.md). Without node, npm or Chromium, or where
+# the packages cannot be had, it says `skipped` (exit code 77).
+#   tests/tiles/run.sh [--install] [--full] [--pictures FOLDER] [ORIEL [ORIEL_GENERATE [FOLDER FOR PACKAGES]]]
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(realpath "$here/../..")
+is_full=false
+missing=()
+find_missing() {
+  missing=()
+  local program
+  for program in node npm chromium; do command -v "$program" >/dev/null || missing+=("$program"); done
+}
+while [ $# -gt 0 ]; do
+  case $1 in
+    --install)
+      find_missing
+      if [ ${#missing[@]} -gt 0 ]; then "$root/examples/install_packages.sh" "${missing[@]/#node/nodejs}"; fi ;;
+    --full) is_full=true ;;
+    --pictures) ORIEL_PICTURES=$(realpath -m "$2"); export ORIEL_PICTURES; shift ;;
+    *) break ;;
+  esac
+  shift
+done
+oriel=$(realpath "${1:-$root/build/release/cli/oriel}")
+generate=$(realpath "${2:-$root/build/release/examples/generator/oriel-generate}")
+packages=$(realpath -m "${3:-$root/build/release/tests/tiles_judges}")
+find_missing
+if [ ${#missing[@]} -gt 0 ]; then
+  echo "skipped: no ${missing[*]}; $0 --install installs it"
+  exit 77
+fi
+# The lock names one version of each and its hash.
+mkdir -p "$packages"
+if ! cmp -s "$here/package-lock.json" "$packages/node_modules/lock"; then
+  cp "$here/package.json" "$here/package-lock.json" "$packages/"
+  if ! (cd "$packages" && timeout 180 npm ci --no-audit --no-fund --ignore-scripts --fetch-retries=1 >npm.log 2>&1); then
+    tail -3 "$packages/npm.log"
+    echo "skipped: the packages cannot be had from the registry"
+    exit 77
+  fi
+  cp "$here/package-lock.json" "$packages/node_modules/lock"
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+houses=6
+if $is_full; then houses=500; fi
+"$generate" --count $houses -o "$work/houses.city.jsonl" 2>/dev/null
+"$oriel" tiles "$work/houses.city.jsonl" -o "$work/houses" --scales 1:100,1:500,1:1000,1:5000,1:25000 --viewer --outlines -j 0 --crs EPSG:25832 \
+  --progress none 2>"$work/houses.log" || { cat "$work/houses.log"; exit 1; }
+folders=("$work/houses")
+tile="${ORIEL_SHARED:-$root/../shared}/data/3dbag/tile_5910.city.jsonl"
+if [ -e "$tile" ]; then
+  part=(--random 20)
+  if $is_full; then part=(); fi
+  "$oriel" tiles "$tile" -o "$work/city" "${part[@]}" -j 0 --most-triangles 2000 --colours surface --progress none --allow-bad 100% 2>"$work/city.log" ||
+    { cat "$work/city.log"; exit 1; }
+  folders+=("$work/city")
+fi
+node "$here/judge.mjs" "$packages" "${folders[@]}"
+node "$here/view.mjs" "$packages" "$(command -v chromium)" "$work/houses" "$houses"
