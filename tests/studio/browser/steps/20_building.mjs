@@ -102,7 +102,7 @@ async function comes(test, what) {
 /** Points at a word of a line, counted from 1, of the editor. */
 async function pointAt(page, line, word) {
   await page.evaluate(number => window.oriel.openLine(number), line);
-  await page.waitForTimeout(60);
+  await page.waitForTimeout(150);
   const place = await page.evaluate(([number, text]) => {
     const rows = [...document.querySelectorAll('.cm-lineNumbers .cm-gutterElement')];
     const row = rows.find(element => element.textContent === String(number))?.getBoundingClientRect();
@@ -133,7 +133,7 @@ async function edits({page, check, picture}) {
   let place;
   await comes(async () => {
     place = await pointAt(page, used, 'widest_window');
-    return page.waitForSelector('.hint-hover', {timeout: 2000}).then(() => true, () => false);
+    return page.waitForSelector('.hint-hover', {timeout: 700}).then(() => true, () => false);
   }, 'what the word means');
   check(/5 m|widest/.test(await page.textContent('.hint-hover')), `the pointer on a param says what it is: ${await page.textContent('.hint-hover')}`);
   await picture('hover');

@@ -22,15 +22,26 @@ function city() {
   return JSON.stringify(all);
 }
 
-export const title = 'a city is drawn in few calls';
-export const studio = {files: [], texts: {'city.city.json': city()}};
+const kHostile = [`<img src=x onerror="document.title='taken'">`, '__proto__'];
+
+/** A house whose name means something to a browser. */
+function named(name) {
+  const model = sample('house');
+  const house = model.CityObjects.house;
+  model.CityObjects = {};
+  Object.defineProperty(model.CityObjects, name, {value: house, enumerable: true});
+  return JSON.stringify(model);
+}
+
+export const title = 'a city is drawn in few calls, and names that mean something to a browser are text';
+export const studio = {files: [], texts: {'city.city.json': city(), 'image.city.json': named(kHostile[0]), 'proto.city.json': named(kHostile[1])}};
 export const context = {reducedMotion: 'reduce'};
 
 export async function run({page, studio, check, picture}) {
   await page.goto(studio.address);
   await ready(page);
   await page.waitForFunction(count => document.querySelector('.status').textContent.includes('features') &&
-    !document.querySelector('.status').textContent.includes(`of ${count}`), kCount, {timeout: 20_000});
+    !document.querySelector('.status').textContent.includes(`of ${count}`), kCount + 2, {timeout: 20_000});
   const calls = Number(await page.getAttribute('#scene', 'data-draw-calls'));
   check(calls > 0 && calls <= 200, `${kCount} houses take ${calls} draw calls`);
   await page.click('#tool-palette');
@@ -42,7 +53,23 @@ export async function run({page, studio, check, picture}) {
   await page.click('#tab-explain');
   await page.waitForSelector('#chosen');
   check(/-3$/.test(await page.textContent('#chosen')), 'a building of it is explained when it is chosen');
+  await namesAreText({page, check});
   await keepsLittle({page, check});
+}
+
+async function namesAreText({page, check}) {
+  for (const name of kHostile) {
+    await page.fill('#search', name);
+    await page.press('#search', 'Enter');
+    await page.waitForFunction(text => document.querySelector('#chosen')?.textContent === text, name);
+    check(await page.evaluate(() => window.oriel.store.value.labels.get(window.oriel.store.value.selection.building).length) > 0, `${name} is a name, and labelled`);
+    await page.click('#tab-list');
+    await page.selectOption('.list select', 'name');
+    check((await page.locator('.list-name').allTextContents()).includes(name), 'in the list, too');
+    await page.click('#tab-explain');
+  }
+  await page.mouse.move(640, 400);
+  check(await page.locator('img').count() === 0 && await page.title() !== 'taken', 'no markup came of it');
 }
 
 /** With room for a few houses only, those that are chosen come and the others stand as boxes. */
@@ -57,7 +84,7 @@ async function keepsLittle({page, check}) {
     for (const end = Date.now() + 10_000; !test(now) && Date.now() < end; now = await kept()) await new Promise(resolve => setTimeout(resolve, 50));
     check(test(now), `${what}: ${now.count} houses of ${now.corners} corners`);
   };
-  check((await kept()).count === kCount, 'where there is room, all houses are as they are');
+  check((await kept()).count === kCount + kHostile.length, 'where there is room, all houses are as they are');
   await page.evaluate(most => {
     window.oriel.shapes.mostCorners = most;
     window.oriel.select({building: 100}, true);
