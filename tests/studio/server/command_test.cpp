@@ -225,8 +225,9 @@ TEST_SUITE("studio/server") {
     CHECK(status_of(fmt::format("studio --no-browser '{}'", kHouse)) == 5);
     std::ifstream said(folder / "said");
     const std::string text{std::istreambuf_iterator<char>(said), {}};
-    CHECK(text.find("oriel/oriel-http.so: E101 the part of oriel that serves its studio cannot be "
-                    "loaded: there is no such file; install oriel again") != std::string::npos);
+    CHECK(text.find(
+              "oriel/studio/oriel-http.so: E101 the part of oriel that serves its studio cannot be "
+              "loaded: there is no such file; install oriel again") != std::string::npos);
     CHECK(text.find("http://") == std::string::npos);
   }
 }
