@@ -33,8 +33,8 @@ struct OutlineLimits {
 ///
 /// No edge gets a new direction, so right angles stay right. Outlines neither vanish nor touch
 /// themselves or each other if they did not. Returns how many short edges are left. Source: the
-/// types of short facade elements by Staufenbiel 1973, as in Sester 2005 (Optimization approaches
-/// for generalization and data abstraction, section 4).
+/// short facade elements of Staufenbiel 1973, as Sester 2005 uses them (Optimization approaches for
+/// generalization and data abstraction).
 int simplify_outlines(std::vector<Outline>& outlines, const OutlineLimits& limits);
 
 }  // namespace oriel::detail
