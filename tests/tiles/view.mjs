@@ -49,8 +49,6 @@ try {
     const error = levels.get(scale) > 0 ? Math.sqrt(levels.get(scale) * coarser) : coarser / 2;
     const distance = await page.evaluate(error => window.oriel.lookAtError(error), error);
     await page.waitForFunction(() => window.oriel.isIdle(), null, {timeout: 20_000});
-    await page.waitForTimeout(100);
-    await page.waitForFunction(() => window.oriel.isIdle(), null, {timeout: 20_000});
     const {shown, buildings} = await page.evaluate(() => ({shown: window.oriel.shown(), buildings: window.oriel.buildings()}));
     check(shown.from <= scale && scale <= shown.to, `from ${distance.toFixed(0)} m: 1:${shown.from} to 1:${shown.to}, expected 1:${scale}`);
     check(Object.keys(buildings).length === Number(count) && Object.values(buildings).every(n => n === 1), `every one of ${count} buildings once`);

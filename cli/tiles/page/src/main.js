@@ -142,11 +142,14 @@ canvas.addEventListener('keydown', event => {
   event.preventDefault();
 });
 
+/** Frames since something was loaded or another view was asked for. */
+let quiet = 0;
 function draw() {
   controls.update();
   camera.updateMatrixWorld();
   tiles.update();
   renderer.render(scene, camera);
+  quiet = tiles.root && tiles.loadProgress === 1 ? quiet + 1 : 0;
   showScale();
   if (pointer) showFeature(featureAt(pointer));
 }
@@ -159,9 +162,10 @@ window.oriel = {
   lookAtError(error) {
     const distance = error * canvas.clientHeight / (2 * kPixels * Math.tan(camera.fov * Math.PI / 360));
     lookFrom(controls.target.clone(), distance);
+    quiet = 0;
     return distance;
   },
-  isIdle: () => tiles.root !== null && tiles.loadProgress === 1 && tiles.visibleTiles.size > 0,
+  isIdle: () => quiet >= 4 && tiles.visibleTiles.size > 0,
   anyFeature() {
     for (let y = -0.9; y < 1; y += 0.1)
       for (let x = -0.9; x < 1; x += 0.1) {

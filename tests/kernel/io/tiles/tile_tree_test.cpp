@@ -94,7 +94,7 @@ TEST_SUITE("kernel/io") {
     const Tile root = Row(4, {100, 50, 10}, {0.5, 3}).tree(100);
     CHECK(root.buildings.size() == 4);
     REQUIRE(root.children.size() == 2);
-    CHECK(root.children[0].cell == "r0");
+    CHECK(root.children[0].cell == "r2");
     CHECK(root.children[0].buildings == std::vector<std::size_t>{0, 1});
     CHECK(root.children[0].children.size() == 2);
   }
