@@ -1,7 +1,7 @@
 #include "oriel/tiles.h"
 
 #include "kernel/io/mesh/mesh_writer.h"
-#include "kernel/mesh/measures.h"
+#include "kernel/mesh/level_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ class TileLevels {
  private:
   [[nodiscard]] double distance(const LabelledBuilding& level) const {
     if (!last_ || !level.geometry) return 0;
-    return hausdorff_m(*last_, *level.geometry, kDistance_m);
+    return level_distance_m(*last_, *level.geometry, kDistance_m);
   }
 
   const Building& building_;

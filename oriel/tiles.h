@@ -12,7 +12,7 @@ namespace oriel {
 
 /// The buildings of a record at all scales of a tileset (write_tileset), in their order. `made` is
 /// what series() made of the document for `scales`: a level is the solid that at() gives, and the
-/// distance between two levels is no further off than 5 mm (hausdorff_m). A
+/// distance between two levels is no further off than 5 mm (level_distance_m). A
 /// building without levels looks at all scales as it was read; one without faces is left out.
 std::vector<TileBuilding> tile_buildings(const Document& document, const Series& made,
                                          const std::vector<double>& scales);
