@@ -2,8 +2,11 @@
 
 #include "kernel/base/issue.h"
 #include "kernel/base/log.h"
+#include "kernel/io/citygml/write/citygml_writer.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/gltf/glb_writer.h"
+#include "kernel/io/gpkg/gpkg_rows.h"
+#include "kernel/io/gpkg/gpkg_writer.h"
 
 #include <algorithm>
 #include <utility>
@@ -22,29 +25,36 @@ namespace {
   throw InputError(std::move(issue));
 }
 
-/// The format that the name says, if records of this kind can be written in it.
-Format checked_format(const std::string& path, std::span<const Document> documents) {
-  const auto format = format_of(path);
-  if (!format || *format == Format::citygml)
-    refuse(path,
-           "names no format that can be written: .city.json, .city.jsonl, .obj, .off, .ply, .stl, "
-           ".glb");
-  for (const Document& document : documents) {
-    const bool is_stream = document.format == Format::cityjson_seq;
-    const bool becomes_stream = *format == Format::cityjson_seq;
-    if (document.format == Format::citygml || is_stream == becomes_stream) continue;
-    if (becomes_stream || *format == Format::cityjson)
-      refuse(path, fmt::format("{} cannot be written as {}", to_string(document.format),
-                               to_string(*format)));
-  }
-  return *format;
+Issue no_crs(const std::string& path) {
+  Issue issue;
+  issue.severity = Severity::note;
+  issue.code = Code::E161;
+  issue.place.file = path;
+  issue.sentence =
+      "has no coordinate reference system, as its input names none: programs do not know where on "
+      "the Earth it lies";
+  return issue;
 }
 
-MeshSource mesh_of(std::span<const Document> documents, std::span<const OutputRecord> outputs) {
-  MeshSource mesh;
-  for (std::size_t i = 0; i < documents.size(); ++i)
-    append_mesh(mesh, documents[i], outputs[i].buildings);
-  return mesh;
+/// The format that is asked for, or that the name says, if records of this kind can be written in
+/// it.
+Format checked_format(const std::string& path, std::span<const Document> documents,
+                      std::optional<Format> to) {
+  const auto named = to ? to : format_of(path);
+  if (!named)
+    refuse(path,
+           "names no format that can be written: .city.json, .city.jsonl, .gml, .gpkg, .obj, .off, "
+           ".ply, .stl, .glb");
+  const Format format = as_written(*named);
+  for (const Document& document : documents) {
+    const bool is_stream = document.format == Format::cityjson_seq;
+    const bool becomes_stream = format == Format::cityjson_seq;
+    if (document.format == Format::citygml || is_stream == becomes_stream) continue;
+    if (becomes_stream || format == Format::cityjson)
+      refuse(path, fmt::format("{} cannot be written as {}", to_string(document.format),
+                               to_string(format)));
+  }
+  return format;
 }
 
 }  // namespace
@@ -82,24 +92,68 @@ std::vector<FeatureRecord> feature_records(const Building& building, const Pipel
   return records;
 }
 
-void write(const std::string& path, std::span<const Document> documents,
-           std::span<const OutputRecord> outputs, StlSolids solids) {
-  const Format format = checked_format(path, documents);
-  OutputFile file(path);
-  if (format != Format::cityjson && format != Format::cityjson_seq) {
-    file.append(mesh_text(format, mesh_of(documents, outputs), solids));
-    return file.commit();
+RecordFile::RecordFile(std::string path, Format format, StlSolids solids)
+    : path_(std::move(path)),
+      format_(format),
+      solids_(solids),
+      file_(path_),
+      collector_(std::make_unique<CityJsonCollector>()) {
+  if (format == Format::gpkg) gpkg_ = std::make_unique<GpkgWriter>(path_);
+}
+
+RecordFile::~RecordFile() = default;
+
+std::string RecordFile::text(Format format, const Document& document, const OutputRecord& output,
+                             std::vector<Issue>& issues) {
+  if (is_mesh(format)) return {};
+  std::string text = write(document, output);
+  if (is_written_citygml(format))
+    return citygml_text(text, document, format, output.options.closes_installations, issues);
+  if (format == Format::gpkg) return gpkg_rows(text, document, output.features);
+  return text;
+}
+
+void RecordFile::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                      const std::string& text) {
+  std::string crs;
+  for (const Building& building : document.buildings) {
+    has_buildings_ = true;
+    if (crs.empty()) crs = building.frame.crs;
   }
-  CityJsonCollector collector;
-  for (std::size_t i = 0; i < documents.size(); ++i) {
-    const std::string text = write(documents[i], outputs[i]);
-    if (format == Format::cityjson && documents[i].format == Format::citygml)
-      collector.add(text);
-    else
-      file.append(text);
-  }
-  if (collector.has_lines()) file.append(collector.text());
-  file.commit();
+  has_crs_ |= !crs.empty();
+  if (is_mesh(format_))
+    append_mesh(mesh_, document, labelled);
+  else if (gpkg_)
+    gpkg_->take(text, crs);
+  else if (format_ == Format::cityjson && document.format == Format::citygml)
+    collector_->add(text);
+  else
+    file_.append(text);
+}
+
+std::vector<Issue> RecordFile::commit() {
+  std::vector<Issue> issues;
+  if (collector_->has_lines()) file_.append(collector_->text());
+  if (is_mesh(format_)) file_.append(mesh_text(format_, mesh_, solids_));
+  if (is_written_citygml(format_)) file_.append(citygml_end());
+  if (gpkg_) issues = gpkg_->end(file_);
+  file_.commit();
+  if ((gpkg_ || is_written_citygml(format_)) && has_buildings_ && !has_crs_)
+    issues.push_back(no_crs(path_));
+  return issues;
+}
+
+std::vector<Issue> write(const std::string& path, std::span<const Document> documents,
+                         std::span<const OutputRecord> outputs, StlSolids solids,
+                         std::optional<Format> to) {
+  const Format format = checked_format(path, documents, to);
+  RecordFile file(path, format, solids);
+  std::vector<Issue> issues;
+  for (std::size_t i = 0; i < documents.size(); ++i)
+    file.take(documents[i], outputs[i].buildings,
+              RecordFile::text(format, documents[i], outputs[i], issues));
+  for (Issue& issue : file.commit()) issues.push_back(std::move(issue));
+  return issues;
 }
 
 }  // namespace oriel

@@ -9,16 +9,25 @@
 #include "kernel/model/labelled_building.h"
 #include "oriel/result.h"
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace oriel {
 
+class CityJsonCollector;
+class GpkgWriter;
+
 /// What is to be written of one record.
 struct OutputRecord {
   std::vector<LabelledBuilding> buildings;
   WriteOptions options{};
+  /// Of the buildings' features, from feature_records(): a GeoPackage has their attributes. Other
+  /// formats do not have them.
+  std::vector<FeatureRecord> features{};
 };
 
 /// Adds a building, such as PipelineResult::output or Repaired::output. One without id, of which
@@ -39,12 +48,51 @@ std::vector<FeatureRecord> feature_records(const Building& building, const Pipel
 std::string mesh_text(Format format, const MeshSource& mesh,
                       StlSolids solids = StlSolids::by_label);
 
+/// A file of records while it is written, in any format; it appears whole or not at all. Failures
+/// throw OutputError E601.
+class RecordFile {
+ public:
+  /// `format` is one that is written (as_written()). "-" is stdout.
+  RecordFile(std::string path, Format format, StlSolids solids = StlSolids::by_label);
+  ~RecordFile();
+  RecordFile(const RecordFile&) = delete;
+  RecordFile& operator=(const RecordFile&) = delete;
+
+  /// What a record adds to a file of this format, as bytes; empty for meshes, which are made of the
+  /// buildings when all are there. `issues` gets what is found: E166 (note) of CityGML with
+  /// WriteOptions::closes_installations. Several threads may call it.
+  static std::string text(Format format, const Document& document, const OutputRecord& output,
+                          std::vector<Issue>& issues);
+  /// Puts a record behind those before it, whose text it was.
+  void take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+            const std::string& text);
+  /// Puts the file in its place. Returns what was found, once for all records: E165 (warning), and
+  /// E161 (note) for CityGML and a GeoPackage of buildings without a reference system.
+  std::vector<Issue> commit();
+
+  /// How many bytes it has so far.
+  [[nodiscard]] std::uint64_t size() const { return file_.size(); }
+
+ private:
+  std::string path_;
+  Format format_;
+  StlSolids solids_;
+  OutputFile file_;
+  MeshSource mesh_;
+  std::unique_ptr<CityJsonCollector> collector_;
+  std::unique_ptr<GpkgWriter> gpkg_;
+  bool has_crs_ = false, has_buildings_ = false;
+};
+
 /// Writes the records of one file, in their order, to the file `path`, which appears when it is
-/// whole. Its name says the format: CityJSON (.city.json), CityJSONSeq (.city.jsonl), OBJ, OFF, PLY,
-/// GLB or STL, whose solids `solids` names. CityGML becomes either of the first two. Throws InputError
-/// E106 for another name, and for a CityJSONSeq that would become a CityJSON file or the other way
-/// round; OutputError E601 if the file cannot be written.
-void write(const std::string& path, std::span<const Document> documents,
-           std::span<const OutputRecord> outputs, StlSolids solids = StlSolids::by_label);
+/// whole. Its name says the format, unless `to` does: CityJSON (.city.json), CityJSONSeq
+/// (.city.jsonl), CityGML 2.0 (.gml) or 3.0, GeoPackage (.gpkg), OBJ, OFF, PLY, GLB or STL, whose
+/// solids `solids` names. Returns what RecordFile::commit() says. Throws InputError E106 for
+/// another name, and for a CityJSONSeq that would become a CityJSON file or the other way round;
+/// OutputError E601 if the file cannot be written.
+std::vector<Issue> write(const std::string& path, std::span<const Document> documents,
+                         std::span<const OutputRecord> outputs,
+                         StlSolids solids = StlSolids::by_label,
+                         std::optional<Format> to = std::nullopt);
 
 }  // namespace oriel

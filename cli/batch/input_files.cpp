@@ -41,7 +41,7 @@ bool holds_cityjson(const std::string& path) {
 
 bool is_of_buildings(const std::string& path, const std::string& from) {
   const auto format = format_of(path);
-  if (!format || *format == Format::stl || *format == Format::glb) return false;
+  if (!format || !is_readable(*format)) return false;
   if (!from.empty() && format != parse_format(from)) return false;
   const bool is_json = *format == Format::cityjson || *format == Format::cityjson_seq;
   const bool says_city = path.ends_with(".city.json") || path.ends_with(".city.jsonl");
@@ -167,7 +167,7 @@ void refuse_folder(const std::string& input) {
   throw InputError(about_input(
       input, Severity::error, Code::E106,
       "the folder has no file of buildings (folders within it are not read); expected files in "
-      ".city.json, .city.jsonl, .gml, .obj, .off or .ply"));
+      ".city.json, .city.jsonl, .gml, .obj, .off, .ply or .stl"));
 }
 
 }  // namespace oriel::cli

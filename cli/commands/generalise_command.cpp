@@ -161,6 +161,7 @@ class Generaliser final : public ProducingCommand {
 
   /// Features that are gone, by label.
   [[nodiscard]] std::map<std::string, int> removed() const { return counted(kRemoved); }
+  [[nodiscard]] std::vector<Issue> take_issues() { return outputs_.take_issues(); }
   /// Of features that stay.
   [[nodiscard]] std::optional<Issue> lacking_columns() const { return outputs_.lacking_columns(); }
   [[nodiscard]] std::vector<Issue> untyped() const { return outputs_.untyped(counted(kKept)); }
@@ -181,8 +182,9 @@ class Generaliser final : public ProducingCommand {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!lines[i].is_done() || stays_open(lines[i], drawn[i])) continue;
       now_at_building(i);
-      outputs_.make_features(document.buildings[i],
-                             drawn[i].repaired ? *drawn[i].repaired : lines[i], product);
+      const PipelineResult& line = drawn[i].repaired ? *drawn[i].repaired : lines[i];
+      outputs_.make_features(document.buildings[i], line, product);
+      outputs_.add_attributes(document.buildings[i], line, output);
       report(drawn[i], product);
       count(drawn[i], lines[i], product);
       add(std::move(drawn[i]), output);
@@ -315,6 +317,7 @@ ExitCode work(GeneraliseArguments& arguments) {
   const ExitCode code = runner.run(command);
   if (runner.was_done()) return code;
   if (const auto lacking = command.lacking_columns()) report.add(*lacking);
+  report.add(command.take_issues());
   report.add(command.untyped());
   runner.report_summary("generalised to " + targets->text(), command.removed(), " left out");
   return code;

@@ -134,6 +134,7 @@ class Labeller final : public ProducingCommand {
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
 
+  [[nodiscard]] std::vector<Issue> take_issues() { return outputs_.take_issues(); }
   [[nodiscard]] std::optional<Issue> lacking_columns() const { return outputs_.lacking_columns(); }
 
   /// The buildings that were read.
@@ -159,6 +160,7 @@ class Labeller final : public ProducingCommand {
       }
       if (!results[i].is_done()) continue;
       outputs_.make_features(building, results[i], product);
+      outputs_.add_attributes(building, results[i], output);
       if (!outputs_.has_any()) product[OutputPart::listing] += listing(building, results[i]);
     }
     now_at_building(kNoBuilding);
@@ -183,7 +185,8 @@ ExitCode work(LabelArguments& arguments) {
   arguments.joins_installations = !arguments.is_repaired;
   arguments.only_names_surfaces = true;
   arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
-                                   !arguments.has_reasons && !arguments.is_repaired;
+                                   !arguments.has_reasons && !arguments.is_repaired &&
+                                   !arguments.writes_attributes();
   if (arguments.is_json) throw CLI::ValidationError("--json", "works only with --existing audit");
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
@@ -202,6 +205,7 @@ ExitCode work(LabelArguments& arguments) {
     report.add(unknown);
     if (!unknown.empty()) code = graver(code, ExitCode::set_aside);
   }
+  report.add(command.take_issues());
   report.add(command.untyped());
   runner.report_summary("labelled", runner.state().labels);
   return code;

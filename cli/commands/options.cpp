@@ -95,13 +95,14 @@ std::vector<double> scales_of(const std::vector<std::string>& texts, const std::
 }
 
 CLI::Validator input_formats() {
-  return one_of({"cityjson", "cityjsonseq", "citygml", "obj", "off", "ply"});
+  return one_of({"cityjson", "cityjsonseq", "citygml", "obj", "off", "ply", "stl"});
 }
 
 void add_input_arguments(CLI::App& command, RunOptions& a, bool has_many) {
   const char* what =
-      "CityJSON, CityJSONSeq, CityGML, OBJ, OFF or PLY; - for stdin (CityJSONSeq unless --from is "
-      "given)";
+      "CityJSON, CityJSONSeq, CityGML, OBJ, OFF, PLY or STL; - for stdin (CityJSONSeq unless "
+      "--from "
+      "is given)";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
   } else {
@@ -329,7 +330,10 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   command.add_option("-o,--output", a.out,
                      "File, - for stdout, or a folder (ending in /) for several inputs");
   command.add_option("--to", a.to, "Format to write (default: from the name of the output)")
-      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl", "glb"}));
+      ->check(one_of({"cityjson", "cityjsonseq", "citygml2", "citygml3", "gpkg", "obj", "off",
+                      "ply", "stl", "glb"}));
+  command.add_flag("--closed-installations", a.closes_installations,
+                   "In CityGML: write installations as closed solids, apart from their building");
   add_features_argument(command, a.features);
   add_columns_argument(command, a.columns);
   add_safe_cells_argument(command, a.has_safe_cells);

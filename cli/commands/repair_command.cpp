@@ -75,11 +75,13 @@ class Repairer final : public VisitingCommand {
   void end(std::size_t /*input*/) override {
     has_ended_ = true;
     runner_.timings().measure(Stage::write, [&] { sink_.end(); });
+    for (Issue& issue : sink_.take_issues()) issues_.push_back(std::move(issue));
   }
   void commit() override {
     if (report_ && has_ended_) report_->commit();
   }
 
+  [[nodiscard]] const std::vector<Issue>& issues() const { return issues_; }
   [[nodiscard]] std::string summary() const {
     return fmt::format("closed ({} repaired, {} found closed)", repaired_, closed_);
   }
@@ -114,7 +116,8 @@ class Repairer final : public VisitingCommand {
   BatchRunner& runner_;
   OutputSink sink_;
   std::unique_ptr<OutputFile> report_;
-  bool has_ended_ = false;  ///< an input did
+  std::vector<Issue> issues_;  ///< of outputs
+  bool has_ended_ = false;     ///< an input did
   int repaired_ = 0, closed_ = 0;
 };
 
@@ -124,6 +127,7 @@ ExitCode work(RepairArguments& arguments) {
   BatchRunner runner(arguments, nullptr, report);
   Repairer command(arguments, runner);
   const ExitCode code = runner.run(command);
+  report.add(command.issues());
   runner.report_summary(command.summary(), {});
   return code;
 }
@@ -143,7 +147,8 @@ void add_repair(CLI::App& app, Action& action) {
       ->required();
   command
       ->add_option("--to", arguments->to, "Format to write (default: from the name of the output)")
-      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl", "glb"}));
+      ->check(one_of({"cityjson", "cityjsonseq", "citygml2", "citygml3", "gpkg", "obj", "off",
+                      "ply", "stl", "glb"}));
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
                     "Write the solids without the semantics of the input");
   command->add_option("--report", arguments->report,

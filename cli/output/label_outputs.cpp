@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,10 @@
 #include <fmt/ranges.h>
 
 namespace oriel::cli {
+
+bool LabellingArguments::writes_attributes() const {
+  return (to.empty() ? format_of(out) : parse_format(to)) == Format::gpkg;
+}
 
 LabelOptions LabellingArguments::label_options(StageObserver observer) const {
   LabelOptions options = RunOptions::label_options(std::move(observer));
@@ -39,12 +44,21 @@ LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& 
     sink_.emplace(arguments.out, arguments.to, arguments.inputs, arguments.read_options().format,
                   arguments.stl_solids);
   if (arguments.is_isolated && sink_ && sink_->is_gathering(0))
-    throw CLI::ValidationError("--isolate", "needs an output that is CityJSON or CityJSONSeq");
+    throw CLI::ValidationError("--isolate",
+                               "needs an output that is no mesh (.obj, .off, .ply, .stl)");
+  if (arguments.closes_installations && (!sink_ || !sink_->is_citygml()))
+    throw CLI::ValidationError("--closed-installations",
+                               "needs an output that is CityGML: -o X.gml, or --to citygml2 or "
+                               "citygml3");
   if (!arguments.reuse.empty() && (recipe().empty() || (sink_ && sink_->is_stdout())))
     throw CLI::ValidationError(
         "--reuse", "needs outputs that are files: -o in .city.jsonl, --features in .csv or .jsonl");
   if (arguments.is_resumable && (!has_any() || (sink_ && sink_->is_stdout())))
     throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
+}
+
+std::vector<Issue> LabelOutputs::take_issues() {
+  return sink_ ? sink_->take_issues() : std::vector<Issue>{};
 }
 
 std::vector<Issue> LabelOutputs::untyped(const std::map<std::string, int>& labels) const {
@@ -96,17 +110,18 @@ PartPlaces LabelOutputs::places() const {
 
 std::string LabelOutputs::recipe() const {
   if (!has_any() || !is_streaming() || arguments_.features.ends_with(".json")) return {};
-  return fmt::format("codelist={} buildings={} features={} columns={} safe={} ignores={}",
+  return fmt::format("codelist={} buildings={} features={} columns={} safe={} ignores={} closed={}",
                      arguments_.codelist, has_buildings(),
                      std::filesystem::path(arguments_.features).extension().string(),
                      fmt::join(names_of_columns(columns_), ","), arguments_.has_safe_cells,
-                     arguments_.ignores_semantics);
+                     arguments_.ignores_semantics, arguments_.closes_installations);
 }
 
 void LabelOutputs::make_buildings(std::size_t input, const Document& document, OutputRecord output,
                                   Product& product) const {
   if (!sink_) return;
-  product[OutputPart::buildings] = sink_->text(input, document, output);
+  output.options.closes_installations = arguments_.closes_installations;
+  product[OutputPart::buildings] = sink_->text(input, document, output, product.issues);
   if (sink_->is_gathering(input)) product.labelled = std::move(output.buildings);
 }
 
@@ -119,6 +134,13 @@ void LabelOutputs::make_features(const Building& building, const PipelineResult&
   if (arguments_.has_safe_cells && format == RecordFormat::csv) more = with_safe_cells(more);
   if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
   text += more;
+}
+
+void LabelOutputs::add_attributes(const Building& building, const PipelineResult& line,
+                                  OutputRecord& output) const {
+  if (!sink_ || !sink_->has_attributes()) return;
+  auto records = feature_records(building, line);
+  std::ranges::move(records, std::back_inserter(output.features));
 }
 
 void LabelOutputs::take(const Document& document, const Product& product) {

@@ -29,9 +29,13 @@ struct LabellingArguments : RunOptions, RulesChoice {
   std::string codelist = "sig3d";
   /// Every surface and installation gets its reason, oriel_why.
   bool has_reasons = false;
+  /// In CityGML installations are solids of their own.
+  bool closes_installations = false;
   /// What the solids of an STL are called by.
   StlSolids stl_solids = StlSolids::by_label;
 
+  /// A GeoPackage may be written, which has the attributes of features.
+  [[nodiscard]] bool writes_attributes() const;
   /// With what is written, too.
   [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
 };
@@ -55,6 +59,9 @@ class LabelOutputs {
   /// A warning E151 if the table of features lacks columns that the rules read.
   [[nodiscard]] std::optional<Issue> lacking_columns() const;
 
+  /// What was found in the files of buildings that are in their place (OutputSink::take_issues).
+  [[nodiscard]] std::vector<Issue> take_issues();
+
   /// Which of these labels have no type in files of buildings (report_untyped);
   /// nothing where such files name no features.
   [[nodiscard]] std::vector<Issue> untyped(const std::map<std::string, int>& labels) const;
@@ -77,6 +84,9 @@ class LabelOutputs {
   void make_buildings(std::size_t input, const Document& document, OutputRecord output,
                       Product& product) const;
   void make_features(const Building& building, const PipelineResult& line, Product& product) const;
+  /// Adds the attributes of a building's features to a record, where the outputs have them.
+  void add_attributes(const Building& building, const PipelineResult& line,
+                      OutputRecord& output) const;
   /// Puts a product into the outputs.
   void take(const Document& document, const Product& product);
   /// An input is done: its file is put in its place.

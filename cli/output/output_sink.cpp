@@ -19,7 +19,11 @@ const char* extension_of(Format format) {
     case Format::cityjson_seq:
       return ".city.jsonl";
     case Format::citygml:
+    case Format::citygml2:
+    case Format::citygml3:
       return ".gml";
+    case Format::gpkg:
+      return ".gpkg";
     case Format::obj:
       return ".obj";
     case Format::off:
@@ -38,7 +42,7 @@ const char* extension_of(Format format) {
 std::string stem_of(const std::string& path) {
   std::string name = fs::path(path).filename().string();
   for (const std::string extension : {".city.jsonl", ".city.json", ".jsonl", ".json", ".citygml",
-                                      ".gml", ".xml", ".obj", ".off", ".ply"})
+                                      ".gml", ".xml", ".obj", ".off", ".ply", ".stl"})
     if (name.size() > extension.size() && name.ends_with(extension))
       return name.substr(0, name.size() - extension.size());
   return name;
@@ -56,7 +60,7 @@ OutputSink::OutputSink(std::string out, const std::string& to, std::vector<std::
   if (!is_folder_ && out_ != "-" && !to_ && !format_of(out_))
     throw CLI::ValidationError(
         "-o", fmt::format("'{}' has no known extension; end it in .city.json, .city.jsonl, .obj, "
-                          ".off, .ply, .stl or .glb, or say the format with --to",
+                          ".off, .ply, .stl, .glb, .gml or .gpkg, or say the format with --to",
                           out_));
   std::set<std::string> paths;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
@@ -76,10 +80,6 @@ Format OutputSink::format_of_input(std::size_t input) const {
 void OutputSink::check(std::size_t input) const {
   const Format from = format_of_input(input);
   const Format to = to_ ? *to_ : is_folder_ || out_ == "-" ? from : format_of(out_).value_or(from);
-  if (!is_folder_ && out_ != "-" && to == Format::citygml)
-    throw CLI::ValidationError("-o",
-                               "CityGML is read only; it is written as CityJSON (.city.json) "
-                               "or CityJSONSeq (.city.jsonl)");
   if (from == Format::citygml) return;
   const bool is_stream_in = from == Format::cityjson_seq,
              is_stream_out = to == Format::cityjson_seq;
@@ -118,21 +118,31 @@ std::string OutputSink::loss(std::size_t input, bool is_selection) const {
 Format OutputSink::format_of_output(std::size_t input) const {
   if (to_) return *to_;
   const Format from = format_of_input(input);
-  return format_of(path_for(input))
-      .value_or(from == Format::cityjson_seq ? from : Format::cityjson);
+  return as_written(
+      format_of(path_for(input)).value_or(from == Format::cityjson_seq ? from : Format::cityjson));
 }
 
-bool OutputSink::is_gathering(std::size_t input) const {
-  const Format format = format_of_output(input);
-  return format != Format::cityjson && format != Format::cityjson_seq;
-}
+bool OutputSink::is_gathering(std::size_t input) const { return is_mesh(format_of_output(input)); }
 
 bool OutputSink::is_streaming() const {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     const Format to = to_ ? *to_ : format_of(path_for(i)).value_or(format_of_input(i));
-    if (to != Format::cityjson_seq || format_of_input(i) != Format::cityjson_seq) return false;
+    const bool is_stream = to == Format::cityjson_seq || is_written_citygml(as_written(to));
+    if (!is_stream || format_of_input(i) != Format::cityjson_seq) return false;
   }
   return true;
+}
+
+bool OutputSink::is_citygml() const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    if (!is_written_citygml(format_of_output(i))) return false;
+  return true;
+}
+
+bool OutputSink::has_attributes() const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    if (format_of_output(i) == Format::gpkg) return true;
+  return false;
 }
 
 bool OutputSink::names_features() const {
@@ -147,41 +157,32 @@ bool OutputSink::names_features() const {
 void OutputSink::begin(std::size_t input, bool is_rehearsal) {
   input_ = input;
   path_ = path_for(input);
-  mesh_ = {};
-  collector_ = {};
   if (is_rehearsal) path_ = "/dev/null";
   if (is_folder_ && !is_rehearsal) {
     std::error_code error;
     fs::create_directories(out_, error);  // what is wrong with it shows when the file is opened
   }
-  file_ = std::make_unique<OutputFile>(path_);
+  file_ = std::make_unique<RecordFile>(path_, format_of_output(input), solids_);
 }
 
 std::string OutputSink::text(std::size_t input, const Document& document,
-                             const OutputRecord& output) const {
-  return is_gathering(input) ? std::string() : write(document, output);
+                             const OutputRecord& output, std::vector<Issue>& issues) const {
+  return RecordFile::text(format_of_output(input), document, output, issues);
 }
 
 void OutputSink::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
                       const std::string& text) {
-  if (is_gathering(input_))
-    append_mesh(mesh_, document, labelled);
-  else if (format_of_output(input_) == Format::cityjson && document.format == Format::citygml)
-    collector_.add(text);
-  else
-    file_->append(text);
+  file_->take(document, labelled, text);
 }
 
 void OutputSink::add(const Document& document, const OutputRecord& output) {
-  take(document, output.buildings, text(input_, document, output));
+  take(document, output.buildings, text(input_, document, output, issues_));
 }
 
 PartPlace OutputSink::place() const { return {path_, file_ ? file_->size() : 0}; }
 
 std::string OutputSink::end() {
-  if (collector_.has_lines()) file_->append(collector_.text());
-  if (is_gathering(input_)) file_->append(mesh_text(format_of_output(input_), mesh_, solids_));
-  file_->commit();
+  for (Issue& issue : file_->commit()) issues_.push_back(std::move(issue));
   file_.reset();
   return path_;
 }

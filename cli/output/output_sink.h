@@ -2,13 +2,12 @@
 
 #include "cli/batch/outcome.h"
 #include "cli/output/named_files.h"
-#include "kernel/io/cityjson/cityjson_collector.h"
-#include "kernel/io/files/output_file.h"
 #include "oriel/write.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oriel::cli {
@@ -23,9 +22,11 @@ class OutputSink {
   OutputSink(std::string out, const std::string& to, std::vector<std::string> inputs,
              std::optional<Format> from, StlSolids solids = StlSolids::by_label);
 
-  /// Lines of streams become lines of streams, and nothing else.
+  /// Lines of streams become lines of streams, or buildings of CityGML, and nothing else.
   [[nodiscard]] bool is_streaming() const;
   [[nodiscard]] bool is_stdout() const { return out_ == "-"; }
+  /// A file has the attributes of features: OutputRecord::features is written.
+  [[nodiscard]] bool has_attributes() const;
   /// A file says which feature its faces belong to.
   [[nodiscard]] bool names_features() const;
 
@@ -36,9 +37,11 @@ class OutputSink {
   /// With `is_rehearsal` the bytes go to nowhere.
   void begin(std::size_t input, bool is_rehearsal);
   /// What a record of an input adds, as bytes; empty for formats that are written when all records
-  /// are there. Several threads may call it.
+  /// are there. `issues` gets what is found. Several threads may call it.
   [[nodiscard]] std::string text(std::size_t input, const Document& document,
-                                 const OutputRecord& output) const;
+                                 const OutputRecord& output, std::vector<Issue>& issues) const;
+  /// All files are CityGML.
+  [[nodiscard]] bool is_citygml() const;
   /// Such formats: `add` needs the buildings.
   [[nodiscard]] bool is_gathering(std::size_t input) const;
   /// Puts a record of the input at hand into its place, whose `text` it was.
@@ -47,6 +50,8 @@ class OutputSink {
   void add(const Document& document, const OutputRecord& output);
   /// Puts the file in its place and returns its path.
   std::string end();
+  /// What was found in the files that are in their place, and is no longer here then.
+  std::vector<Issue> take_issues() { return std::exchange(issues_, {}); }
 
  private:
   [[nodiscard]] Format format_of_input(std::size_t input) const;
@@ -63,9 +68,8 @@ class OutputSink {
 
   std::size_t input_ = 0;
   std::string path_;
-  std::unique_ptr<OutputFile> file_;
-  MeshSource mesh_;
-  CityJsonCollector collector_;
+  std::unique_ptr<RecordFile> file_;
+  std::vector<Issue> issues_;
 };
 
 }  // namespace oriel::cli

@@ -36,8 +36,8 @@ users write (window, door, chimney, dormer, balcony), says why each part has
 its name, and redraws buildings for a map scale or a level of detail as valid
 solids.
 .
-It reads CityJSON, CityJSONSeq, CityGML, OBJ, OFF and PLY, and works through
-whole cities in bounded memory.
+It reads CityJSON, CityJSONSeq, CityGML, OBJ, OFF, PLY and STL, writes these and
+GeoPackage, and works through whole cities in bounded memory.
 .
 This package has the commands oriel and oriel-generate, rule packs, completion
 for bash, zsh and fish, and sample buildings in /usr/share/oriel/samples.")
@@ -47,7 +47,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME liboriel-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
        libboost-dev libcgal-dev libexpat1-dev libproj-dev libfmt-dev libgmp-dev libmpfr-dev libnlopt-cxx-dev libopenmesh-dev
-       libsimdjson-dev libspdlog-dev libyaml-cpp-dev nettle-dev nlohmann-json3-dev)
+       libsimdjson-dev libspdlog-dev libsqlite3-dev libyaml-cpp-dev nettle-dev nlohmann-json3-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "oriel-doc")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "library to label and generalise 3D buildings (development files)
 oriel cuts closed 3D buildings into their parts, names them by rules and

@@ -61,6 +61,9 @@
   X(E162, 0, "Heights without a reference") \
   X(E163, 0, "Buildings too far apart") \
   X(E164, 0, "The folder is not empty") \
+  X(E165, 0, "Attributes of one name that differ in type") \
+  X(E166, 0, "An installation that stays open") \
+  X(E167, 0, "STL syntax") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that does not exist") \

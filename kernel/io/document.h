@@ -14,8 +14,8 @@ namespace detail {
 struct CityJsonSource;
 }
 
-/// One record of a file: a whole CityJSON, OBJ, OFF or PLY file, one line of a CityJSONSeq, or one
-/// Building of a CityGML file. It keeps the text it was read from, so that writing leaves every
+/// One record of a file: a whole CityJSON, OBJ, OFF, PLY or STL file, one line of a CityJSONSeq, or
+/// one Building of a CityGML file. It keeps the text it was read from, so that writing leaves every
 /// byte alone that it need not change.
 struct Document {
   /// The record's name in messages: the file, and for CityJSONSeq the line (`tile.city.jsonl:12`),

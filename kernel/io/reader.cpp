@@ -21,13 +21,18 @@ Format format_to_read(const std::string& path, const ReadOptions& options) {
     throw InputError(detail::error_in(
         name, {Code::E106,
                "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj, "
-               ".off or .ply, or --from cityjson, cityjsonseq, citygml, obj, off or ply"}));
-  if (*format == Format::stl)
-    throw InputError(
-        detail::error_in(name, {Code::E106, "STL is written only: it has no polygons to read"}));
+               ".off, .ply or .stl, or --from cityjson, cityjsonseq, citygml, obj, off, ply or "
+               "stl"}));
+  if (*format == Format::gpkg)
+    throw InputError(detail::error_in(
+        name, {Code::E106, "a GeoPackage is written only; read the file that it was made of"}));
   if (*format == Format::glb)
     throw InputError(
         detail::error_in(name, {Code::E106, "GLB is written only: its triangles are for viewers"}));
+  if (!is_readable(*format))
+    throw InputError(detail::error_in(
+        name, {Code::E106, fmt::format("{} names what is written; every version is read as citygml",
+                                       to_string(*format))}));
   return *format;
 }
 
@@ -104,6 +109,7 @@ Checked<Document> Reader::State::read_file() {
   if (format == Format::obj) return detail::read_obj(text, name);
   if (format == Format::off) return detail::read_off(text, name);
   if (format == Format::ply) return detail::read_ply(text, name);
+  if (format == Format::stl) return detail::read_stl(text, name);
   return cityjson.read(std::move(text), name, std::nullopt);
 }
 

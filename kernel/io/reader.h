@@ -36,8 +36,8 @@ struct ReadOptions {
 /// CityJSON 1.0, 1.1 and 2.0: every Building and BuildingPart with a geometry of the chosen level
 /// of detail becomes a Building; of several such geometries the first solid, else the first
 /// surface. CityGML 1.0, 2.0 and 3.0: every Building with its parts, by the same choice of
-/// geometry. OBJ, OFF and PLY: one Building, its id the file's stem; a solid if the faces are one
-/// closed connected shell.
+/// geometry. OBJ, OFF, PLY and STL: one Building, its id the file's stem; a solid if the faces are
+/// one closed connected shell.
 ///
 /// What is wrong with the data comes back as issues (docs/errors.md). A fault in one building costs
 /// that building (of CityGML with its parts), a fault in a line of a CityJSONSeq that line.

@@ -25,6 +25,8 @@ struct WriteOptions {
   /// Ids of CityObjects to leave out, such as installations that were generalised away. They also
   /// leave the `children` and `parents` of all other objects.
   std::vector<std::string> removed;
+  /// Of CityGML: installations become solids (citygml_text); CityJSON has them as they are.
+  bool closes_installations = false;
   /// The scale is finer than the document's by so many powers of ten at least (see WrittenGrid).
   int finer_digits = 0;
 };

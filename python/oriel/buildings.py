@@ -109,7 +109,7 @@ def _files_and_made(items: Any) -> tuple[list[File], list[Made]]:
 def write(path: Path, items: Any, *, existing: str = "fill") -> list[Issue]:
     """Writes buildings with what was made of them: what read(), label(), repair() or generalise() gave.
 
-    The name says the format: .city.json, .city.jsonl, .obj, .off, .ply, .stl. All records of the file that the buildings
+    The name says the format: .city.json, .city.jsonl, .gml (CityGML 2.0), .gpkg, .obj, .off, .ply, .stl. All records of the file that the buildings
     were read from are written; what was made of none of their buildings stays unchanged. The file appears when it is
     whole, with the bytes that the command writes.
 

@@ -80,6 +80,18 @@ std::vector<OutputRecord> outputs_of(const ReadFile& file, const MadeList& made,
   return outputs;
 }
 
+/// The attributes of features, which only a GeoPackage has.
+void add_attributes(const ReadFile& file, const MadeList& made,
+                    std::vector<OutputRecord>& outputs) {
+  for (const auto& one : made) {
+    const PipelineResult* result = one->labelled();
+    if (result == nullptr || one->of().file().get() != &file) continue;
+    auto& features = outputs[one->of().record()].features;
+    for (FeatureRecord& record : feature_records(one->of().building(), *result))
+      features.push_back(std::move(record));
+  }
+}
+
 /// A warning for each class whose features have no type in the output.
 std::vector<Issue> untyped(const MadeList& made) {
   std::map<std::string, int> labels;
@@ -92,10 +104,13 @@ std::vector<Issue> untyped(const MadeList& made) {
 std::vector<Issue> write_file(const std::string& path, const std::shared_ptr<const ReadFile>& file,
                               const MadeList& made, const std::string& existing) {
   std::vector<Issue> issues;
-  const auto outputs = outputs_of(*file, made, existing, issues);
+  auto outputs = outputs_of(*file, made, existing, issues);
+  if (format_of(path) == Format::gpkg) add_attributes(*file, made, outputs);
   const bool is_by_class = std::ranges::any_of(
       made, [](const auto& one) { return one->solids() == StlSolids::by_class; });
-  write(path, file->records, outputs, is_by_class ? StlSolids::by_class : StlSolids::by_label);
+  for (Issue& issue :
+       write(path, file->records, outputs, is_by_class ? StlSolids::by_class : StlSolids::by_label))
+    issues.push_back(std::move(issue));
   const auto format = format_of(path);
   if (format == Format::off || (format == Format::stl && is_by_class)) return issues;
   for (Issue& issue : untyped(made)) issues.push_back(std::move(issue));

@@ -68,6 +68,8 @@ class MadeItem {
   [[nodiscard]] virtual const std::vector<Issue>& issues() const = 0;
   /// Adds it to what is written of its record, and what is found then.
   virtual void add_to(OutputRecord& output, std::vector<Issue>& issues) const = 0;
+  /// What was labelled, of which a GeoPackage has all attributes; null: nothing.
+  [[nodiscard]] virtual const PipelineResult* labelled() const { return nullptr; }
   /// The pack by whose labels its parts are called in the output, if there is one; adds how many
   /// features have each.
   virtual const RuleBase* count(std::map<std::string, int>& /*labels*/) const { return nullptr; }
@@ -97,6 +99,9 @@ class StageResult final : public MadeItem {
 
   [[nodiscard]] const std::vector<Issue>& issues() const override { return result_.issues; }
   void add_to(OutputRecord& output, std::vector<Issue>& issues) const override;
+  [[nodiscard]] const PipelineResult* labelled() const override {
+    return rules_ ? &result_ : nullptr;
+  }
   const RuleBase* count(std::map<std::string, int>& labels) const override;
 
  private:

@@ -57,6 +57,9 @@ class RedrawnBuilding final : public MadeItem {
   void add_to(OutputRecord& output, std::vector<Issue>& /*issues*/) const override {
     if (is_drawn()) add(drawn_, output);
   }
+  [[nodiscard]] const PipelineResult* labelled() const override {
+    return drawn_.repaired ? &*drawn_.repaired : &labelled_->result();
+  }
   const RuleBase* count(std::map<std::string, int>& labels) const override {
     if (!drawn_.levels.empty() && is_drawn()) {
       const PipelineResult& from = drawn_.repaired ? *drawn_.repaired : labelled_->result();

@@ -43,7 +43,7 @@ std::string mixed_folder(const Folder& folder) {
   folder.write("city/house.truth.json", R"({"building": "a", "objects": []})");
   folder.write("city/parts.jsonl", R"({"building": "a", "id": "f"})");
   folder.write("city/notes.txt", "none");
-  folder.write("city/out.stl", "solid a");
+  folder.write("city/out.gpkg", "SQLite format 3");
   return city;
 }
 

@@ -182,9 +182,9 @@ TEST_SUITE("cli") {
     CHECK(std::filesystem::exists(folder / "folder/hip.stripped.stl"));
   }
 
-  TEST_CASE("OBJ and OFF and PLY come out as CityJSON with labels") {
+  TEST_CASE("OBJ and OFF and PLY and STL come out as CityJSON with labels") {
     const Folder folder;
-    for (const std::string format : {"obj", "off", "ply"}) {
+    for (const std::string format : {"obj", "off", "ply", "stl"}) {
       const std::string mesh = folder / ("house." + format);
       REQUIRE(run({"label", sample("house"), "-o", mesh}).exit == 0);
       const Outcome outcome = run({"label", mesh, "-o", folder / "back.city.json"});

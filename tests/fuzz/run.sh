@@ -32,7 +32,7 @@ dictionary_of() {
   case $1 in
     cityjson | cityjson_seq | level) echo json ;;
     citygml) echo citygml ;;
-    obj | off | ply) echo mesh ;;
+    obj | off | ply | stl) echo mesh ;;
     packs | profiles | expressions) echo rules ;;
     feature_tables | truth | corrections | operations | journal | status) echo records ;;
   esac

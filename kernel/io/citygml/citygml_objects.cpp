@@ -268,7 +268,7 @@ bool ObjectReader::read_children(std::size_t index) {
     const bool is_good = for_each_value(property, [&](const XmlNode& value) {
       if (is_said_inside(value)) return true;
       const std::string name = fmt::format("{}_{}_{}", id, type, ++count[type]);
-      return read(value, type, value.id().empty() ? name : std::string(value.id()),
+      return read(value, type, value.id().empty() ? name : object_id(value),
                   static_cast<int>(index));
     });
     if (!is_good) return false;

@@ -146,7 +146,7 @@ Issue CityGmlReader::State::issue_at(const XmlNode& node, Severity severity,
 
 /// The building's gml:id, or a name by its number if it has none.
 std::string CityGmlReader::State::id_for(const XmlNode& member) {
-  if (!member.id().empty()) return std::string(member.id());
+  if (!member.id().empty()) return object_id(member);
   std::string id = fmt::format("building_{}", members);
   while (ids.contains(id)) id += '_';
   return id;

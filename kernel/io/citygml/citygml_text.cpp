@@ -1,6 +1,7 @@
 #include "kernel/io/citygml/citygml_text.h"
 
 #include "kernel/base/index.h"
+#include "kernel/io/citygml/write/xml_text.h"
 #include "kernel/io/json/json_text.h"
 #include "kernel/io/json/words.h"
 
@@ -121,6 +122,7 @@ class Attributes {
     const XmlNode* named = child_named(node, "name");
     const std::string name(named != nullptr ? trimmed(named->text) : node.attribute("name"));
     const XmlNode* value = child_named(node, "value");
+    if (name == kObjectId) return true;
     if (is_set) {
       Attributes inner;
       for (const XmlNode& child : node.children)
@@ -226,9 +228,10 @@ class Semantics {
     out += '{';
     append_json_key(out, "type");
     append_json(out, surface.type);
-    if (const std::string_view id = surface.node->id(); !id.empty()) {
+    // Ids that oriel has made say nothing.
+    if (const std::string_view id = surface.node->id(); !id.empty() && !id.starts_with(kMadeId)) {
       append_json_key(out, "id");
-      append_json(out, id);
+      append_json(out, std::string_view(object_id(*surface.node)));
     }
     if (const auto parent = number_of_.find(surface.parent); parent != number_of_.end()) {
       append_json_key(out, "parent");

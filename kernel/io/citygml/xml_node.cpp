@@ -1,8 +1,30 @@
 #include "kernel/io/citygml/xml_node.h"
 
+#include "kernel/io/citygml/write/xml_text.h"
+
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace oriel::detail {
+
+namespace {
+
+bool says_object_id(const XmlNode& node) {
+  if (node.name == "genericAttribute") return std::ranges::any_of(node.children, says_object_id);
+  if (node.vocabulary != Vocabulary::generics) return false;
+  return node.attribute("name") == kObjectId ||
+         std::ranges::any_of(node.children, [](const XmlNode& child) {
+           return child.name == "name" && trimmed(child.text) == kObjectId;
+         });
+}
+
+}  // namespace
+
+std::string object_id(const XmlNode& node) {
+  const bool is_escaped = std::ranges::any_of(node.children, says_object_id);
+  return is_escaped ? xml_id_source(node.id()) : std::string(node.id());
+}
 
 NodeFault XmlLinks::too_deep(const XmlNode& property) {
   return {{Code::E503,

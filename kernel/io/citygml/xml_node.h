@@ -39,6 +39,13 @@ struct XmlNode {
   [[nodiscard]] std::string_view id() const { return attribute("id"); }
 };
 
+/// The generic attribute that says that the gml:id of an object stands for an id that no gml:id can
+/// be (xml_id); the writer gives it.
+inline constexpr std::string_view kObjectId = "oriel_object_id";
+
+/// The id of an object: its gml:id, or the one that this stands for. Empty if it has none.
+std::string object_id(const XmlNode& node);
+
 /// True for an element of CityGML, false for one of GML and of extensions.
 inline bool is_city(const XmlNode& node) {
   return node.vocabulary != Vocabulary::gml && node.vocabulary != Vocabulary::other;

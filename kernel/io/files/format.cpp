@@ -14,6 +14,7 @@ constexpr std::array<std::pair<std::string_view, Format>, 10> kExtensions{{
     {".gml", Format::citygml},
     {".citygml", Format::citygml},
     {".xml", Format::citygml},
+    {".gpkg", Format::gpkg},
     {".obj", Format::obj},
     {".off", Format::off},
     {".ply", Format::ply},
@@ -21,10 +22,13 @@ constexpr std::array<std::pair<std::string_view, Format>, 10> kExtensions{{
     {".glb", Format::glb},
 }};
 
-constexpr std::array<std::pair<std::string_view, Format>, 8> kNames{{
+constexpr std::array<std::pair<std::string_view, Format>, 11> kNames{{
     {"cityjson", Format::cityjson},
     {"cityjsonseq", Format::cityjson_seq},
     {"citygml", Format::citygml},
+    {"citygml2", Format::citygml2},
+    {"citygml3", Format::citygml3},
+    {"gpkg", Format::gpkg},
     {"obj", Format::obj},
     {"off", Format::off},
     {"ply", Format::ply},

@@ -38,6 +38,13 @@ Checked<Document> read_off(std::string_view text, const TextName& name);
 /// first finding.
 Checked<Document> read_ply(std::string_view text, const TextName& name);
 
+/// Reads an STL file, ASCII or binary (little-endian; the size of the file, not its first word,
+/// says which). Corners at the same place, to the last bit, become one point; normals and attribute
+/// bytes are passed over. The name of a `solid` is the hint of its triangles. E167 where ASCII is
+/// anything else or a binary file is longer than its header says; E105 for a file that ends too
+/// soon, E506 as for OBJ. Reading stops at the first finding.
+Checked<Document> read_stl(std::string_view text, const TextName& name);
+
 /// The document of a mesh: one building named by the file's stem. It is a solid if its faces form
 /// one closed connected shell (points at the same place count as one). E313 without faces; E501 and
 /// E506 leave the building out, E311 is a warning.

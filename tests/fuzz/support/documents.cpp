@@ -1,5 +1,8 @@
 #include "tests/fuzz/support/documents.h"
 
+#include "kernel/io/citygml/write/citygml_writer.h"
+#include "kernel/io/gpkg/gpkg_row.h"
+#include "kernel/io/gpkg/gpkg_rows.h"
 #include "kernel/io/mesh/mesh_writer.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/writer.h"
@@ -59,6 +62,22 @@ void check_emitted(const std::string& text, std::size_t buildings) {
   promise(same == text, "what was read again is written as the same bytes");
 }
 
+/// A whole file as CityGML is XML that can be read; its rows come back whole.
+void check_other_formats(const Document& document, const std::string& text) {
+  static const ScratchFile gml("again.gml");
+  for (const Format format : {Format::citygml2, Format::citygml3}) {
+    std::vector<Issue> issues;
+    const std::string written = citygml_text(text, document, format, true, issues);
+    Reader reader(gml.write(written + citygml_end()), {});
+    while (const auto record = reader.next())
+      promise(record->value.has_value(), "CityGML that was written can be read",
+              record->issues.empty() ? "" : to_string(record->issues.front()));
+  }
+  const std::string rows = gpkg_rows(text, document, {});
+  promise(detail::for_each_row(rows, [](const detail::GpkgRow&) {}) == rows.size(),
+          "rows of a GeoPackage are whole");
+}
+
 void write(const Document& document) {
   if (!is_small(document)) return;
   // Of a CityGML building that could not be read nothing is written.
@@ -68,6 +87,7 @@ void write(const Document& document) {
   promise(!text.empty(), "a record that was read can be written");
   const bool is_file = document.format == Format::cityjson || is_mesh(document.format);
   if (is_file) check_emitted(text, document.buildings.size());
+  if (is_file) check_other_formats(document, text);
   write_meshes(document, labelled);
 }
 

@@ -61,11 +61,12 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("a format that is unknown or written only is refused") {
     CHECK(thrown_by("a.ifc").code == Code::E106);
     CHECK(thrown_by("-").code == Code::E106);
-    CHECK(thrown_by("a.stl").code == Code::E106);
+    CHECK(thrown_by("a.gpkg").code == Code::E106);
+    CHECK(thrown_by("a.gml", {{}, Format::citygml3}).code == Code::E106);
   }
 
   TEST_CASE("an empty file is distinguished from a broken one") {
-    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.ply", "a.city.jsonl"})
+    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.ply", "a.stl", "a.city.jsonl"})
       CHECK(refusal_of("", name).code == Code::E102);
     CHECK(refusal_of(" \n").code == Code::E102);
   }

@@ -18,13 +18,15 @@ TEST_SUITE("kernel/io") {
     CHECK(format_of("b.gml") == Format::citygml);
     CHECK(format_of("b.citygml") == Format::citygml);
     CHECK(format_of("b.XML") == Format::citygml);
+    CHECK(format_of("b.gpkg") == Format::gpkg);
     CHECK_FALSE(format_of("b.ifc"));
     CHECK_FALSE(format_of("-"));
   }
 
   TEST_CASE("every format reads back from its name") {
-    for (const Format format : {Format::cityjson, Format::cityjson_seq, Format::citygml,
-                                Format::obj, Format::off, Format::ply, Format::stl})
+    for (const Format format :
+         {Format::cityjson, Format::cityjson_seq, Format::citygml, Format::citygml2,
+          Format::citygml3, Format::gpkg, Format::obj, Format::off, Format::ply, Format::stl})
       CHECK(parse_format(to_string(format)) == format);
     CHECK_FALSE(parse_format("CityJSON "));
   }

@@ -1,0 +1,169 @@
+#include "kernel/io/objects/closed_installations.h"
+
+#include "kernel/base/index.h"
+#include "kernel/model/tolerances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+using VertexRing = std::vector<int>;
+using RingList = std::vector<VertexRing>;
+
+/// The loops along which some polygons of a closed shell meet the rest of it, each as these
+/// polygons run round; nothing if a corner has two ways on.
+std::optional<RingList> contact_loops(const std::vector<const CityPolygon*>& polygons) {
+  std::set<std::pair<int, int>> edges;
+  for (const CityPolygon* polygon : polygons)
+    for (const VertexRing& ring : polygon->rings)
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (!edges.insert({ring[i], ring[(i + 1) % ring.size()]}).second) return std::nullopt;
+  std::map<int, int> next;
+  for (const auto& [from, to] : edges)
+    if (!edges.contains({to, from}) && !next.try_emplace(from, to).second) return std::nullopt;
+  RingList loops;
+  while (!next.empty()) {
+    VertexRing& loop = loops.emplace_back();
+    for (auto at = next.begin(); at != next.end();) {
+      loop.push_back(at->first);
+      const int to = at->second;
+      next.erase(at);
+      at = next.find(to);
+      if (at == next.end() && to != loop.front()) return std::nullopt;
+    }
+    if (loop.size() < 3) return std::nullopt;
+  }
+  return loops;
+}
+
+struct LoopPlane {
+  Vec3 normal;
+  double offset_m = 0;
+};
+
+/// The plane that a loop lies in, or nothing.
+std::optional<LoopPlane> plane_of_loop(const VertexRing& loop, const std::vector<Vec3>& vertices) {
+  const Vec3 area = area_vector(vertices, loop);
+  if (length(area) == 0) return std::nullopt;
+  const Vec3 normal = normalised(area), base = vertices[at(loop.front())];
+  const double most_m = Tolerances{}.plane_offset_m;
+  for (const int v : loop)
+    if (std::abs(dot(normal, vertices[at(v)] - base)) > most_m) return std::nullopt;
+  return LoopPlane{normal, dot(normal, base)};
+}
+
+/// True if each loop lies in a plane, and of those in one plane none can be the hole of another.
+bool are_faces(const RingList& loops, const std::vector<Vec3>& vertices) {
+  std::vector<LoopPlane> planes;
+  for (const VertexRing& loop : loops) {
+    const auto plane = plane_of_loop(loop, vertices);
+    if (!plane) return false;
+    const bool is_turned = std::ranges::any_of(planes, [&](const LoopPlane& other) {
+      return dot(other.normal, plane->normal) < 0 &&
+             std::abs(other.offset_m + plane->offset_m) <= Tolerances{}.plane_offset_m;
+    });
+    if (is_turned) return false;
+    planes.push_back(*plane);
+  }
+  return !planes.empty();
+}
+
+/// The number of the ClosureSurface of a geometry, which is made if it has none.
+int closure_surface(CityGeometry& geometry) {
+  geometry.surfaces.push_back({"ClosureSurface", -1, {}});
+  return static_cast<int>(geometry.surfaces.size()) - 1;
+}
+
+class InstallationCloser {
+ public:
+  explicit InstallationCloser(CityRecord& record) : record_(record) {
+    for (std::size_t i = 0; i < record.objects.size(); ++i)
+      number_of_.try_emplace(record.objects[i].id, i);
+  }
+
+  std::vector<Issue> close() {
+    for (CityObject& building : record_.objects) {
+      if (building.type != "Building" && building.type != "BuildingPart") continue;
+      for (const std::string& child : building.children) {
+        CityObject& installation = record_.objects[number_of_.at(child)];
+        if (installation.type != "BuildingInstallation") continue;
+        for (CityGeometry& shared : installation.geometries)
+          if (CityGeometry* solid = solid_with(building, shared))
+            close(installation, shared, *solid);
+      }
+    }
+    return std::move(issues_);
+  }
+
+ private:
+  /// The solid of the building that has a polygon of the installation's geometry; null: none.
+  static CityGeometry* solid_with(CityObject& building, const CityGeometry& shared) {
+    if (shared.is_solid() || shared.bodies.empty()) return nullptr;
+    const std::set<RingList> rings = rings_of(shared);
+    for (CityGeometry& geometry : building.geometries) {
+      if (!geometry.is_solid() || geometry.lod != shared.lod) continue;
+      bool is_shared = false;
+      for_each_city_polygon(
+          geometry, [&](const CityPolygon& one) { is_shared |= rings.contains(one.rings); });
+      if (is_shared) return &geometry;
+    }
+    return nullptr;
+  }
+
+  static std::set<RingList> rings_of(const CityGeometry& geometry) {
+    std::set<RingList> rings;
+    for_each_city_polygon(geometry, [&](const CityPolygon& one) { rings.insert(one.rings); });
+    return rings;
+  }
+
+  void close(CityObject& installation, CityGeometry& shared, CityGeometry& solid) {
+    const std::set<RingList> rings = rings_of(shared);
+    for (auto& shells : solid.bodies) {
+      if (shells.empty()) continue;
+      std::vector<const CityPolygon*> common;
+      for (const CityPolygon& polygon : shells[0])
+        if (rings.contains(polygon.rings)) common.push_back(&polygon);
+      if (common.size() != rings.size()) continue;
+      const auto loops = contact_loops(common);
+      if (!loops || !are_faces(*loops, record_.vertices)) break;
+      put_apart(*loops, rings, shells[0], solid, shared);
+      for (auto& [name, value] : installation.attributes)
+        if (name == "oriel_geometry") value = {std::string("closed")};
+      return;
+    }
+    issues_.push_back(
+        building_issue(Severity::note, Code::E166, installation.id,
+                       "is written open: no plane faces close it where it meets its building"));
+  }
+
+  static void put_apart(const RingList& loops, const std::set<RingList>& rings,
+                        std::vector<CityPolygon>& shell, CityGeometry& solid,
+                        CityGeometry& shared) {
+    std::erase_if(shell, [&](const CityPolygon& one) { return rings.contains(one.rings); });
+    const int of_solid = closure_surface(solid), of_shared = closure_surface(shared);
+    shared.type = "Solid";
+    for (const VertexRing& loop : loops) {
+      shell.push_back({{loop}, of_solid});
+      shared.bodies[0][0].push_back({{VertexRing(loop.rbegin(), loop.rend())}, of_shared});
+    }
+  }
+
+  CityRecord& record_;
+  std::map<std::string, std::size_t> number_of_;
+  std::vector<Issue> issues_;
+};
+
+}  // namespace
+
+std::vector<Issue> close_installations(CityRecord& record) {
+  return InstallationCloser(record).close();
+}
+
+}  // namespace oriel::detail
