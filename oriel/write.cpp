@@ -27,7 +27,7 @@ namespace {
 
 Issue no_crs(const std::string& path) {
   Issue issue;
-  issue.severity = Severity::note;
+  issue.severity = Severity::warning;
   issue.code = Code::E161;
   issue.place.file = path;
   issue.sentence =

@@ -59,15 +59,15 @@ class RecordFile {
   RecordFile& operator=(const RecordFile&) = delete;
 
   /// What a record adds to a file of this format, as bytes; empty for meshes, which are made of the
-  /// buildings when all are there. `issues` gets what is found: E166 (note) of CityGML with
+  /// buildings when all are there. `issues` gets what is found: E166 (warning) of CityGML with
   /// WriteOptions::closes_installations. Several threads may call it.
   static std::string text(Format format, const Document& document, const OutputRecord& output,
                           std::vector<Issue>& issues);
   /// Puts a record behind those before it, whose text it was.
   void take(const Document& document, const std::vector<LabelledBuilding>& labelled,
             const std::string& text);
-  /// Puts the file in its place. Returns what was found, once for all records: E165 (warning), and
-  /// E161 (note) for CityGML and a GeoPackage of buildings without a reference system.
+  /// Puts the file in its place. Returns what was found, once for all records: E165, and E161 for
+  /// CityGML and a GeoPackage of buildings without a reference system, both warnings.
   std::vector<Issue> commit();
 
   /// How many bytes it has so far.

@@ -139,7 +139,7 @@ class InstallationCloser {
       return;
     }
     issues_.push_back(
-        building_issue(Severity::note, Code::E166, installation.id,
+        building_issue(Severity::warning, Code::E166, installation.id,
                        "is written open: no plane faces close it where it meets its building"));
   }
 

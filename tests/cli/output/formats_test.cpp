@@ -41,7 +41,10 @@ TEST_SUITE("cli") {
       CHECK(features_of(folder, folder / "a.gml") == expected);
       const std::string text = bytes_of(folder / "a.gml");
       CHECK(count_of(text, "<bldg:Building ") == 1);
-      CHECK(count_of(text, version == "citygml2" ? "<bldg:Window>" : "<con:WindowSurface ") == 16);
+      const std::size_t windows = count_of(bytes_of(folder / "a.city.json"), R"("type":"Window")");
+      CHECK(windows >= 16);
+      CHECK(count_of(text, version == "citygml2" ? "<bldg:Window>" : "<con:WindowSurface ") ==
+            windows);
     }
   }
 
@@ -98,7 +101,7 @@ TEST_SUITE("cli") {
     CHECK(bytes_of(folder / "one.gpkg").starts_with("SQLite format 3"));
   }
 
-  TEST_CASE("buildings that nobody says where they lie come with a note") {
+  TEST_CASE("buildings that nobody says where they lie come with a warning") {
     const Folder folder;
     for (const std::string name : {"a.gml", "a.gpkg"}) {
       const Outcome outcome = run({"label", sample("house"), "-o", folder / name});

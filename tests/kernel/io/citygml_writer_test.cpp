@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -68,10 +69,10 @@ std::map<std::string, int> polygons_by_surface(const json& geometry) {
       [&](const json& boundaries, const json& values, int depth) {
         for (std::size_t i = 0; i < boundaries.size(); ++i) {
           const json value = values.is_array() ? values[i] : json();
-          if (depth == 0)
-            ++counts[name_of(value)];
-          else
+          if (depth > 0)
             visit(boundaries[i], value, depth - 1);
+          else if (std::set<int>(boundaries[i][0].begin(), boundaries[i][0].end()).size() >= 3)
+            ++counts[name_of(value)];
         }
       };
   const std::string type = geometry["type"];

@@ -21,7 +21,7 @@ namespace oriel {
 ///   where they have none. Polygons of surfaces that are neither a boundary surface of CityGML nor
 ///   an opening are written without them.
 /// - With `closes_installations` an installation that shares polygons of its building's solid is a
-///   solid of its own where plane faces can close both; else `issues` gets a note E166.
+///   solid of its own where plane faces can close both; else `issues` gets a warning E166.
 /// - A polygon is written once; solids, and installations that share polygons of their building,
 ///   link to it.
 /// - Levels are those of CityGML, 0 to 3: of several geometries of one level (2.1 and 2.2) the one
