@@ -79,6 +79,9 @@ run house-label label "$house"
 run house-label-first label "$house" --rules first_pack.yaml
 run house-label-obj label "$house" -o @/house.obj --features @/parts.json
 run house-label-stl label "$house" -o @/house.stl
+run house-label-citygml2 label "$house" -o @/house.gml
+run house-label-citygml3 label "$house" --to citygml3 --closed-installations -o @/house.gml
+run house-label-gpkg label "$house" -o @/house.gpkg
 run house-label-off label "$house" -o @/house.off
 run house-label-replace label samples/house.labelled.city.json --existing replace -o @/house.city.json
 run house-label-audit label samples/house.labelled.city.json --existing audit

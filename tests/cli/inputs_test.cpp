@@ -153,8 +153,8 @@ TEST_SUITE("cli") {
       CHECK(outcome.exit == 5);
       CHECK(outcome.says("error: " + (folder / "none") +
                          ": E106 the folder has no file of buildings (folders within it are not "
-                         "read); expected files in .city.json, .city.jsonl, .gml, .obj, .off or "
-                         ".ply\n"));
+                         "read); expected files in .city.json, .city.jsonl, .gml, .obj, .off, "
+                         ".ply or .stl\n"));
     }
     const Outcome other = run({"segment", "--json", folder / "none", in});
     CHECK(other.exit == 5);

@@ -294,10 +294,25 @@ TEST_SUITE("oriel") {
     }
   }
 
+  TEST_CASE("CityGML and GeoPackages are written and say what they lack") {
+    const auto records = records_of("house");
+    const Folder folder;
+    const std::vector<OutputRecord> none(1);
+    const auto codes = [](const std::vector<Issue>& issues) {
+      return issues.size() == 1 ? to_string(issues[0].code) : std::to_string(issues.size());
+    };
+    CHECK(codes(write(folder / "two.gml", records, none)) == "E161");
+    CHECK(codes(write(folder / "three.gml", records, none, {}, Format::citygml3)) == "E161");
+    CHECK(codes(write(folder / "a.gpkg", records, none)) == "E161");
+    CHECK(bytes_of(folder / "two.gml").find("citygml/2.0") != std::string::npos);
+    CHECK(bytes_of(folder / "three.gml").find("citygml/3.0") != std::string::npos);
+    CHECK(bytes_of(folder / "a.gpkg").starts_with("SQLite format 3"));
+  }
+
   TEST_CASE("a name that says no format is refused with E106") {
     const auto records = records_of("house");
     const Folder folder;
-    for (const char* name : {"house.txt", "house.gml", "house.city.jsonl"}) {
+    for (const char* name : {"house.txt", "house.ifc", "house.city.jsonl"}) {
       CAPTURE(name);
       CHECK_THROWS_AS(write(folder / name, records, std::vector<OutputRecord>(1)), InputError);
     }

@@ -47,7 +47,7 @@ class BytesTest(FolderTest):
                      "--ignore-semantics", existing="replace")
 
     def test_meshes(self):
-        for name in (".obj", ".off", ".ply", ".stl"):
+        for name in (".gml", ".gpkg", ".obj", ".off", ".ply", ".stl"):
             with self.subTest(name):
                 self.compare(name, oriel.label(HOUSE), "label", HOUSE)
 

@@ -59,6 +59,30 @@ std::optional<LoopPlane> plane_of_loop(const VertexRing& loop, const std::vector
   return LoopPlane{normal, dot(normal, base)};
 }
 
+/// The loop itself if it lies in a plane, or the two that a chord parts it into if each of these
+/// does, as where a chimney stands on both sides of a ridge; of several chords the shortest.
+/// Nothing if there is no such chord.
+RingList plane_parts(const VertexRing& loop, const std::vector<Vec3>& vertices) {
+  constexpr std::size_t kMostCorners = 100;
+  if (plane_of_loop(loop, vertices)) return {loop};
+  RingList parts;
+  double shortest_m = Box::kInfinity;
+  for (std::size_t i = 0; i < loop.size() && loop.size() <= kMostCorners; ++i)
+    for (std::size_t j = i + 2; j < loop.size() && j - i + 2 <= loop.size(); ++j) {
+      const double chord_m = length(vertices[at(loop[j])] - vertices[at(loop[i])]);
+      if (chord_m >= shortest_m) continue;
+      const auto place = [&](std::size_t k) {
+        return loop.begin() + static_cast<std::ptrdiff_t>(k);
+      };
+      VertexRing one(place(i), place(j + 1)), other(place(j), loop.end());
+      other.insert(other.end(), loop.begin(), place(i + 1));
+      if (!plane_of_loop(one, vertices) || !plane_of_loop(other, vertices)) continue;
+      parts = {std::move(one), std::move(other)};
+      shortest_m = chord_m;
+    }
+  return parts;
+}
+
 /// True if each loop lies in a plane, and of those in one plane none can be the hole of another.
 bool are_faces(const RingList& loops, const std::vector<Vec3>& vertices) {
   std::vector<LoopPlane> planes;
@@ -73,6 +97,25 @@ bool are_faces(const RingList& loops, const std::vector<Vec3>& vertices) {
     planes.push_back(*plane);
   }
   return !planes.empty();
+}
+
+/// True if a face would lie on the back of a polygon that goes on from one of its edges: the body
+/// reaches under the installation there, as the ground does under stairs.
+bool are_folded(const RingList& faces, const std::vector<const CityPolygon*>& rest,
+                const std::vector<Vec3>& vertices) {
+  constexpr double kOpposite = -0.999;
+  std::map<std::pair<int, int>, Vec3> normal_at;
+  for (const VertexRing& face : faces)
+    for (std::size_t i = 0; i < face.size(); ++i)
+      normal_at[{face[(i + 1) % face.size()], face[i]}] = normalised(area_vector(vertices, face));
+  for (const CityPolygon* polygon : rest)
+    for (const VertexRing& ring : polygon->rings)
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (const auto found = normal_at.find({ring[i], ring[(i + 1) % ring.size()]});
+            found != normal_at.end() &&
+            dot(found->second, normalised(area_vector(vertices, polygon->rings[0]))) < kOpposite)
+          return true;
+  return false;
 }
 
 /// The number of the ClosureSurface of a geometry, which is made if it has none.
@@ -127,13 +170,13 @@ class InstallationCloser {
     const std::set<RingList> rings = rings_of(shared);
     for (auto& shells : solid.bodies) {
       if (shells.empty()) continue;
-      std::vector<const CityPolygon*> common;
+      std::vector<const CityPolygon*> common, rest;
       for (const CityPolygon& polygon : shells[0])
-        if (rings.contains(polygon.rings)) common.push_back(&polygon);
+        (rings.contains(polygon.rings) ? common : rest).push_back(&polygon);
       if (common.size() != rings.size()) continue;
-      const auto loops = contact_loops(common);
-      if (!loops || !are_faces(*loops, record_.vertices)) break;
-      put_apart(*loops, rings, shells[0], solid, shared);
+      const RingList faces = contact_faces(common);
+      if (faces.empty() || are_folded(faces, rest, record_.vertices)) break;
+      put_apart(faces, rings, shells[0], solid, shared);
       for (auto& [name, value] : installation.attributes)
         if (name == "oriel_geometry") value = {std::string("closed")};
       return;
@@ -141,6 +184,19 @@ class InstallationCloser {
     issues_.push_back(
         building_issue(Severity::warning, Code::E166, installation.id,
                        "is written open: no plane faces close it where it meets its building"));
+  }
+
+  /// What closes polygons of a shell where they meet the rest of it; nothing if no plane faces do.
+  [[nodiscard]] RingList contact_faces(const std::vector<const CityPolygon*>& common) const {
+    RingList faces;
+    const auto loops = contact_loops(common);
+    if (!loops) return {};
+    for (const VertexRing& loop : *loops) {
+      const RingList parts = plane_parts(loop, record_.vertices);
+      if (parts.empty()) return {};
+      faces.insert(faces.end(), parts.begin(), parts.end());
+    }
+    return are_faces(faces, record_.vertices) ? faces : RingList{};
   }
 
   static void put_apart(const RingList& loops, const std::set<RingList>& rings,

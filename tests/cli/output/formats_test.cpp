@@ -71,7 +71,7 @@ TEST_SUITE("cli") {
   TEST_CASE("installations are solids of their own in CityGML if asked") {
     const Folder folder;
     const Outcome outcome =
-        run({"label", sample("house"), "-o", folder / "a.gml", "--closed-installations"});
+        run({"label", sample("house"), "-o", folder / "a.gml", "--closed-installations", "-v"});
     CHECK(outcome.exit == 0);
     const std::string text = bytes_of(folder / "a.gml");
     const std::size_t installations = count_of(text, "<bldg:BuildingInstallation ");
