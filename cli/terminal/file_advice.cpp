@@ -35,7 +35,6 @@ constexpr OtherFile kOtherFiles[] = {
     {".csv", "records of features are read by interpret, score and diff"},
     {".ifc", "IFC is not read: convert the file to CityJSON or CityGML first"},
     {".dxf", "DXF is not read: convert the file to CityJSON or OBJ first"},
-    {".gpkg", "a GeoPackage is written only: name the file that it was made of"},
 };
 
 fs::path folder_of(const std::string& path) {
