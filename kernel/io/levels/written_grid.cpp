@@ -14,7 +14,7 @@ namespace oriel {
 
 namespace {
 
-constexpr double kMicrometres = 1e6;
+constexpr double kGridPerMetre = 1e6;
 /// A micrometre has so many decimals of a metre.
 constexpr int kDecimals = 6;
 
@@ -78,7 +78,7 @@ MicrometrePoint WrittenGrid::place(Vec3 local_m, const Frame& frame) const {
 
 MicrometrePoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate) {
   const auto whole = [](std::int64_t number, double one, double from) {
-    return std::llround((from + one * static_cast<double>(number)) * kMicrometres);
+    return std::llround((from + one * static_cast<double>(number)) * kGridPerMetre);
   };
   return {whole(vertex[0], scale.x, translate.x), whole(vertex[1], scale.y, translate.y),
           whole(vertex[2], scale.z, translate.z)};
