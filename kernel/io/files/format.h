@@ -25,7 +25,7 @@ enum class Format {
 /// True for the formats that have points and faces and say nothing of buildings.
 constexpr bool is_mesh(Format format) {
   return format == Format::obj || format == Format::off || format == Format::ply ||
-         format == Format::stl;
+         format == Format::stl || format == Format::glb;
 }
 
 /// What a file of that name or format is when it is written: of CityGML version 2.0, which most
