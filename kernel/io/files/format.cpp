@@ -8,7 +8,7 @@ namespace oriel {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Format>, 10> kExtensions{{
+constexpr std::array<std::pair<std::string_view, Format>, 11> kExtensions{{
     {".json", Format::cityjson},
     {".jsonl", Format::cityjson_seq},
     {".gml", Format::citygml},
