@@ -1,4 +1,5 @@
-// view.mjs PACKAGES CHROMIUM TILESET BUILDINGS: the page of --viewer, from far to near.
+// view.mjs PACKAGES CHROMIUM TILESET BUILDINGS: the page of --viewer, from far to near. With ORIEL_PICTURES pictures go to that folder;
+// ORIEL_PIXELS is how large on the screen an error may be: the larger, the nearer the views.
 import {createReadStream, existsSync, mkdirSync, readFileSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {createRequire} from 'node:module';
@@ -41,7 +42,7 @@ try {
   });
   page.on('pageerror', error => complaints.push(error.message));
   page.on('request', request => { if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(origin)) strangers.push(request.url()); });
-  await page.goto(`${origin}/index.html?pixels=1`);
+  await page.goto(`${origin}/index.html?pixels=${process.env.ORIEL_PIXELS ?? 1}`);
   await page.waitForFunction(() => window.oriel?.isIdle(), null, {timeout: 20_000});
   for (const [step, scale] of scales.entries()) {
     // Between the error of this scale, which is not to be seen, and that of the coarser one, which is.

@@ -1,6 +1,6 @@
 // The page: streams tileset.json from beside it, says at which scale what is seen is drawn, and what lies under the pointer.
 import {
-  AmbientLight, Color, DirectionalLight, Matrix4, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer
+  AmbientLight, Box3, Color, DirectionalLight, Matrix4, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {TilesRenderer} from '3d-tiles-renderer/three';
@@ -46,7 +46,8 @@ tiles.addEventListener('load-root-tileset', ({tileset}) => {
   tiles.group.matrix.decompose(tiles.group.position, tiles.group.quaternion, tiles.group.scale);
   tiles.group.updateMatrixWorld(true);
   const box = tileset.root.boundingVolume.box;
-  const middle = new Vector3(box[0], box[2], -box[1]);
+  const middle = new Vector3(box[0], box[2], -box[1]), half = new Vector3(box[3], box[11], box[7]);
+  whole.set(middle.clone().sub(half), middle.clone().add(half));
   lookFrom(middle, 2.2 * Math.hypot(box[3], box[7], box[11]));
 });
 tiles.addEventListener('load-error', ({error, url}) => tell(`${url} cannot be loaded: ${error.message}`));
@@ -57,6 +58,8 @@ function tell(sentence) {
   $('fault').hidden = false;
 }
 
+/** Round all buildings. */
+const whole = new Box3();
 function lookFrom(middle, distance) {
   controls.target.copy(middle);
   camera.position.copy(middle).addScaledVector(new Vector3(0.35, 0.6, 0.72).normalize(), distance);
@@ -161,7 +164,11 @@ window.oriel = {
   /** Looks from where an error of so many metres is as large as may be seen; returns how far that is. */
   lookAtError(error) {
     const distance = error * canvas.clientHeight / (2 * kPixels * Math.tan(camera.fov * Math.PI / 360));
-    lookFrom(controls.target.clone(), distance);
+    let near = 0, far = distance + whole.getSize(new Vector3()).length();
+    for (let step = 0; step < 40; ++step) {  // renderers measure from the nearest point of the box
+      lookFrom(whole.getCenter(new Vector3()), (near + far) / 2);
+      if (whole.distanceToPoint(camera.position) < distance) near = (near + far) / 2; else far = (near + far) / 2;
+    }
     quiet = 0;
     return distance;
   },
