@@ -49,8 +49,8 @@ endfunction()
 # makes (model), and rules, which all threads read. The other rooms keep nothing between two calls (tests/repository).
 # Left out, for time, are the other commands (threads/other_commands.cpp) and what only they call.
 set(ORIEL_NOT_OF_THREADS
-  "/cli/(view|completion)/" view_embedded rules_reference
-  "commands/(cat|collect|completion|diff|experiment|explain|learn|merge|rules|score|split|validate|view)_"
+  "/cli/(view|completion)/" view_embedded rules_reference tiles_page tiles_output
+  "commands/(cat|collect|completion|diff|experiment|explain|learn|merge|rules|score|split|tiles|validate|view)_"
   "/oriel/./(experiments/[^c]|report/)")
 function(oriel_leave_out_of_threads list)
   foreach(pattern ${ORIEL_NOT_OF_THREADS})

@@ -12,6 +12,7 @@ void add_diff(CLI::App&, Action&) {}
 void add_score(CLI::App&, Action&) {}
 void add_validate(CLI::App&, Action&) {}
 void add_view(CLI::App&, Action&) {}
+void add_tiles(CLI::App&, Action&) {}
 void add_split(CLI::App&, Action&) {}
 void add_merge(CLI::App&, Action&) {}
 void add_rules(CLI::App&, Action&) {}

@@ -7,6 +7,7 @@ import path from 'node:path';
 
 const [packages, executablePath, folder, count] = process.argv.slice(2);
 const {chromium} = createRequire(path.join(packages, 'package.json'))('playwright-core');
+const [width, height] = (process.env.ORIEL_SIZE ?? '800x600').split('x').map(Number);
 const kTypes = {'.html': 'text/html', '.json': 'application/json', '.glb': 'model/gltf-binary'};
 let faults = 0;
 function check(isTrue, what) {
@@ -36,7 +37,7 @@ const browser = await chromium.launch({executablePath, headless: true,
   args: ['--no-sandbox', '--disable-gpu-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-first-run', '--disable-background-networking']});
 const complaints = [], strangers = [];
 try {
-  const page = await browser.newPage({viewport: {width: 800, height: 600}});
+  const page = await browser.newPage({viewport: {width, height}});
   page.on('console', message => {
     if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver|swiftshader|versions at 1.1 or higher/.test(message.text())) complaints.push(message.text());
   });
