@@ -24,5 +24,6 @@
 #include "oriel/segment.h"                 // IWYU pragma: export
 #include "oriel/series.h"                  // IWYU pragma: export
 #include "oriel/stage.h"                   // IWYU pragma: export
+#include "oriel/tiles.h"                   // IWYU pragma: export
 #include "oriel/validate.h"                // IWYU pragma: export
 #include "oriel/write.h"                   // IWYU pragma: export
