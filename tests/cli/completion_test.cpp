@@ -142,7 +142,8 @@ TEST_SUITE("cli") {
     CHECK(completed[0] == orders);
     CHECK(completed[1] == std::set<std::string>{"paper"});
     CHECK(completed[2] == orders);
-    CHECK(completed[3] == std::set<std::string>{"--close", "--close-area"});
+    CHECK(completed[3] ==
+          std::set<std::string>{"--close", "--close-area", "--closed-installations"});
     CHECK(completed[4].empty());  // files, which bash knows
     CHECK(completed[5] == std::set<std::string>{"check"});
     CHECK(completed[6].empty());
