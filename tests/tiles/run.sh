@@ -45,11 +45,16 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 houses=6
-if $is_full; then houses=500; fi
 "$generate" --count $houses -o "$work/houses.city.jsonl" 2>/dev/null
 "$oriel" tiles "$work/houses.city.jsonl" -o "$work/houses" --scales 1:100,1:500,1:1000,1:5000,1:25000 --viewer --outlines -j 0 --crs EPSG:25832 \
   --progress none 2>"$work/houses.log" || { cat "$work/houses.log"; exit 1; }
 folders=("$work/houses")
+if $is_full; then
+  "$generate" --count 500 -o "$work/many.city.jsonl" 2>/dev/null
+  "$oriel" tiles "$work/many.city.jsonl" -o "$work/many" -j 0 --crs EPSG:25832 --most-triangles 5000 --progress none 2>"$work/many.log" ||
+    { cat "$work/many.log"; exit 1; }
+  folders+=("$work/many")
+fi
 tile="${ORIEL_SHARED:-$root/../shared}/data/3dbag/tile_5910.city.jsonl"
 if [ -e "$tile" ]; then
   part=(--random 20)
