@@ -9,6 +9,7 @@
 #include "kernel/io/files/partial_files.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -70,13 +71,13 @@ class Tiler final : public ProducingCommand {
   void commit() override {
     if (!file_) return;
     const std::string path = path_of(kBuildingsName);
-    file_->commit();
-    file_.reset();
-    PartialFiles::take_done();  // it does not stay
     try {
+      file_->commit();
+      file_.reset();
+      PartialFiles::take_done();  // it does not stay
       write_from(path);
     } catch (...) {
-      if (!PartialFiles::are_kept()) remove(path);
+      if (!PartialFiles::are_kept()) remove_all(path);
       throw;
     }
     remove(path);
@@ -109,13 +110,18 @@ class Tiler final : public ProducingCommand {
 
   void open(bool is_rehearsal) {
     std::error_code error;
-    fs::create_directories(arguments_.folder, error);  // what is wrong shows at the file
+    // What is wrong shows at the file.
+    has_made_folder_ |= fs::create_directories(arguments_.folder, error);
     file_ = std::make_unique<OutputFile>(is_rehearsal ? "/dev/null" : path_of(kBuildingsName));
   }
 
-  static void remove(const std::string& path) {
-    std::error_code error;
-    fs::remove(path, error);  // it is in nobody's way
+  /// Asks for no memory, which may be used up. If it cannot go it is in nobody's way.
+  static void remove(const std::string& path) { std::remove(path.c_str()); }
+
+  /// What this run has made; a folder only if nothing is in it.
+  void remove_all(const std::string& path) const {
+    remove(path);
+    if (has_made_folder_) remove(arguments_.folder);
   }
 
   void write_from(const std::string& path) {
@@ -139,6 +145,7 @@ class Tiler final : public ProducingCommand {
   const RuleBase& rules_;
   BatchRunner& runner_;
   Report& report_;
+  bool has_made_folder_ = false;
   std::unique_ptr<OutputFile> file_;
   std::optional<TilesetFiles> written_;
 };

@@ -51,12 +51,24 @@ bool is_building_rejected(const Outcome& outcome) {
   return outcome.exit == kSetAside && (outcome.says("E901") || outcome.says("E123"));
 }
 
+/// A GLB says in its head how long it is.
+bool is_whole_glb(const std::string& bytes) {
+  constexpr std::size_t kLengthAt = 8, kHead = 12;
+  if (!bytes.starts_with("glTF") || bytes.size() < kHead) return false;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    length += std::size_t{static_cast<unsigned char>(bytes[kLengthAt + i])} << (8 * i);
+  return length == bytes.size();
+}
+
 bool ends_alike(const std::string& p, const std::string& q) {
+  if (p.starts_with("glTF")) return is_whole_glb(q);
   return p.empty() || q.empty() || p.back() == q.back();
 }
 
 bool is_of_a_run_that_goes_on(const std::string& name) {
-  return name.ends_with(".partial") || name.ends_with(".journal") || name.ends_with(".journal.new");
+  return name.ends_with(".partial") || name.ends_with(".part") || name.ends_with(".journal") ||
+         name.ends_with(".journal.new");
 }
 
 CallCounts counts_in(const std::string& path) {
