@@ -153,11 +153,11 @@ class FarthestPoint {
 
  private:
   using Probes = std::array<MeasuredSurface::Probe, 3>;
-  struct Piece {
+  struct TrianglePiece {
     double most = 0;  ///< no point of it is farther
     std::size_t number = 0;
     Probes probes;
-    bool operator<(const Piece& other) const {
+    bool operator<(const TrianglePiece& other) const {
       return std::tie(most, other.number) < std::tie(other.most, number);
     }
   };
@@ -198,7 +198,7 @@ class FarthestPoint {
   double error_m_;
   double greatest_;
   std::size_t pushed_ = 0;
-  std::priority_queue<Piece> waiting_;
+  std::priority_queue<TrianglePiece> waiting_;
 };
 
 }  // namespace

@@ -19,27 +19,25 @@ using nlohmann::ordered_json;
 
 namespace {
 
-using Point = FlatMesh::Point;
-
 /// Ids of features are numbers with 24 binary digits, as vertices have no larger whole ones.
 constexpr std::size_t kMostFeatures = 1U << 24U;
 /// The colour of lines, nearly black.
 constexpr double kLineShade = 0.05;
 
 /// z up as y up.
-Point turned(const Point& p) { return {p[0], p[2], p[1] == 0 ? 0 : -p[1]}; }
+FlatMesh::Point turned(const FlatMesh::Point& p) { return {p[0], p[2], p[1] == 0 ? 0 : -p[1]}; }
 
-std::vector<Point> turned(const std::vector<Point>& points) {
-  std::vector<Point> out;
+std::vector<FlatMesh::Point> turned(const std::vector<FlatMesh::Point>& points) {
+  std::vector<FlatMesh::Point> out;
   out.reserve(points.size());
-  for (const Point& point : points) out.push_back(turned(point));
+  for (const FlatMesh::Point& point : points) out.push_back(turned(point));
   return out;
 }
 
 /// Least and largest coordinates, which accessors of positions have.
-ordered_json limits_of(const std::vector<Point>& points) {
-  Point least = points.front(), most = points.front();
-  for (const Point& point : points)
+ordered_json limits_of(const std::vector<FlatMesh::Point>& points) {
+  FlatMesh::Point least = points.front(), most = points.front();
+  for (const FlatMesh::Point& point : points)
     for (std::size_t i = 0; i < 3; ++i) {
       least[i] = std::min(least[i], point[i]);
       most[i] = std::max(most[i], point[i]);
@@ -91,14 +89,14 @@ class GlbWriter {
           buffers_.add_view(bytes_of(values), ViewTarget::vertices, stride), component, type,
           values.size(), more);
     };
-    const std::vector<Point> points = turned(mesh_.points);
+    const std::vector<FlatMesh::Point> points = turned(mesh_.points);
     const std::vector<float> ids(mesh_.feature_of.begin(), mesh_.feature_of.end());
     ordered_json attributes;
     attributes["POSITION"] =
-        vertices(points, NumberType::single, "VEC3", sizeof(Point), limits_of(points));
+        vertices(points, NumberType::single, "VEC3", sizeof(FlatMesh::Point), limits_of(points));
     const ordered_json lines_attributes = attributes;
     attributes["NORMAL"] = vertices(turned(mesh_.normals), NumberType::single, "VEC3",
-                                    sizeof(Point), ordered_json::object());
+                                    sizeof(FlatMesh::Point), ordered_json::object());
     if (options_.colours != GlbColours::none)
       attributes["COLOR_0"] =
           vertices(colours(), NumberType::byte_u, "VEC4", 4, {{"normalized", true}});
