@@ -36,8 +36,9 @@ users write (window, door, chimney, dormer, balcony), says why each part has
 its name, and redraws buildings for a map scale or a level of detail as valid
 solids.
 .
-It reads CityJSON, CityJSONSeq, CityGML, OBJ, OFF, PLY and STL, writes these and
-GeoPackage, and works through whole cities in bounded memory.
+It reads CityJSON, CityJSONSeq, CityGML, OBJ, OFF, PLY and STL, writes these,
+GeoPackages, GLB and 3D Tiles, and works through whole cities in bounded
+memory.
 .
 This package has the commands oriel and oriel-generate, rule packs, completion
 for bash, zsh and fish, and sample buildings in /usr/share/oriel/samples.")
