@@ -48,8 +48,21 @@ def forget(browser):
     settle(browser)
 
 
+# Where what the picture looks at is drawn: the middle of what nothing lies over, beside the legend or over it.
+MIDDLE = """(() => {
+  const all = document.querySelector('#scene').getBoundingClientRect();
+  const top = document.querySelector('#scene .tool-bar')?.getBoundingClientRect().bottom ?? all.top;
+  const card = document.querySelector('#scene .legend-card')?.getBoundingClientRect();
+  const free = (left, bottom) => ({left, width: all.right - left, top, height: Math.max(0.2 * all.height, bottom - top)});
+  const beside = free(card?.width ? card.right : all.left, all.bottom), over = free(all.left, card?.width ? card.top : all.bottom);
+  const side = area => Math.min(area.width, area.height);
+  const area = side(beside) >= side(over) ? beside : over;
+  return [area.left + area.width / 2, area.top + area.height / 2];
+})()"""
+
+
 def click_middle(browser):
-    browser.click_on("#scene canvas")
+    browser.click(*browser.value(MIDDLE))
     settle(browser)
 
 
