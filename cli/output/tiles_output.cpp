@@ -80,7 +80,10 @@ class Tiler final : public ProducingCommand {
       if (!PartialFiles::are_kept()) remove_all(path);
       throw;
     }
-    remove(path);
+    if (written_)
+      remove(path);
+    else
+      remove_all(path);
   }
   void reopen() override { open(false); }
 

@@ -190,9 +190,22 @@ TEST_SUITE("cli") {
     const Outcome unknown = run({"tiles", house, "-o", folder / "a", "--crs", "EPSG:1"});
     CHECK(unknown.exit == 5);
     CHECK(unknown.says("E160"));
-    CHECK(files_in(folder / "a").empty());
+    CHECK_FALSE(std::filesystem::exists(folder / "a"));
     CHECK(run({"tiles", house, "-o", folder / "a", "--crs", "local"}).err.find("E16") ==
           std::string::npos);
+  }
+
+  TEST_CASE("of a file without buildings no folder is left") {
+    const Folder folder;
+    for (const std::string text : {"", "{", "[]"}) {
+      const std::string input = folder.write("in.city.json", text);
+      CHECK(run({"tiles", input, "-o", folder / "tiles"}).exit == 5);
+      CHECK(folder.names() == std::vector<std::string>{"in.city.json"});
+    }
+    // One that was there stays.
+    std::filesystem::create_directory(folder / "mine");
+    CHECK(run({"tiles", folder / "in.city.json", "-o", folder / "mine"}).exit == 5);
+    CHECK(std::filesystem::is_empty(folder / "mine"));
   }
 
   TEST_CASE("buildings 1,000 km apart, and ids that occur twice, are told") {
