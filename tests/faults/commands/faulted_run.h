@@ -20,6 +20,9 @@ struct WritingCommand {
   std::vector<std::vector<std::string>> first{};
   /// Killed or failed, the same command goes on: what it left then is no leftover.
   bool is_resumable = false;
+  /// Memory is not refused it: nlohmann-json 3.11 destroys objects that it got no memory for, and
+  /// crashes there.
+  bool needs_memory = false;
   /// TBB loads a library when it is used first, and the C library's dlopen crashes where there is
   /// no memory at all.
   bool has_threads = false;
