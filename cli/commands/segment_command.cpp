@@ -10,7 +10,7 @@
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
-#include "oriel/experiments/count.h"
+#include "oriel/experiments/paper/count.h"
 #include "oriel/explain.h"
 #include "oriel/segment.h"
 #include "oriel/write.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/experiments/count.h"
+#include "oriel/experiments/paper/count.h"
 
 #include <string>
 

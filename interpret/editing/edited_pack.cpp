@@ -3,7 +3,7 @@
 #include "interpret/editing/cursor/word_at.h"
 #include "interpret/editing/layers.h"
 #include "interpret/editing/renaming.h"
-#include "interpret/pack/read_pack.h"
+#include "interpret/pack/read/read_pack.h"
 #include "interpret/plan/profile.h"
 #include "interpret/testing/test_file.h"
 #include "interpret/yaml/yaml_tree.h"

@@ -1,10 +1,10 @@
 #include "interpret/experiment/count_variants.h"
 
-#include "interpret/experiment/changed_pack.h"
-#include "interpret/experiment/relabelling.h"
-#include "interpret/experiment/rule_uses.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
+#include "interpret/relabelling/changed_pack.h"
+#include "interpret/relabelling/relabelling.h"
+#include "interpret/relabelling/rule_uses.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>

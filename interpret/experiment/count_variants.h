@@ -3,8 +3,8 @@
 #include "interpret/experiment/label_counter.h"
 #include "interpret/experiment/parallel.h"
 #include "interpret/experiment/sample.h"
-#include "interpret/experiment/variant.h"
 #include "interpret/pack/rule_base.h"
+#include "interpret/relabelling/variant.h"
 #include "interpret/score/score.h"
 #include "kernel/base/issue.h"
 

@@ -2,8 +2,8 @@
 
 #include "interpret/experiment/plan/experiment_plan.h"
 #include "interpret/experiment/results.h"
-#include "interpret/experiment/variant.h"
 #include "interpret/pack/rule_base.h"
+#include "interpret/relabelling/variant.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "interpret/evaluate/evaluation_context.h"
-#include "interpret/experiment/relabelling.h"
-#include "interpret/experiment/rule_uses.h"
 #include "interpret/explain/explain.h"
 #include "interpret/labelling/candidates.h"
 #include "interpret/pack/pack.h"
 #include "interpret/params/settable_pack.h"
+#include "interpret/relabelling/relabelling.h"
+#include "interpret/relabelling/rule_uses.h"
 
 #include <cstddef>
 #include <optional>

@@ -3,7 +3,7 @@
 #include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/labelling/labelling.h"
-#include "interpret/pack/read_pack.h"
+#include "interpret/pack/read/read_pack.h"
 #include "interpret/params/with_params.h"
 
 #include <algorithm>

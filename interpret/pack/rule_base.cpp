@@ -13,7 +13,7 @@
 #include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
 #include "interpret/pack/pack_page.h"
-#include "interpret/pack/read_pack.h"
+#include "interpret/pack/read/read_pack.h"
 #include "interpret/yaml/section.h"
 #include "interpret/yaml/yaml_text.h"
 #include "interpret/yaml/yaml_tree.h"

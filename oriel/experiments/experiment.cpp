@@ -2,7 +2,7 @@
 
 #include "interpret/params/with_params.h"
 #include "oriel/experiments/file_patterns.h"
-#include "oriel/experiments/paper_tables.h"
+#include "oriel/experiments/paper/paper_tables.h"
 #include "oriel/experiments/part_runner.h"
 #include "oriel/experiments/sample_set.h"
 

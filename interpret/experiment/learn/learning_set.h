@@ -4,12 +4,12 @@
 #include "interpret/experiment/learn/objective.h"
 #include "interpret/experiment/learn/search/param_curve.h"
 #include "interpret/experiment/parallel.h"
-#include "interpret/experiment/relabelling.h"
-#include "interpret/experiment/rule_uses.h"
 #include "interpret/experiment/sample.h"
 #include "interpret/explain/turning_points.h"
 #include "interpret/pack/pack.h"
 #include "interpret/params/settable_pack.h"
+#include "interpret/relabelling/relabelling.h"
+#include "interpret/relabelling/rule_uses.h"
 #include "interpret/score/score.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "interpret/editing/edited_pack.h"
 #include "interpret/editing/layers.h"
 #include "interpret/pack/names.h"
-#include "interpret/pack/read_pack.h"
+#include "interpret/pack/read/read_pack.h"
 #include "interpret/yaml/yaml_text.h"
 #include "interpret/yaml/yaml_tree.h"
 #include "kernel/base/index.h"

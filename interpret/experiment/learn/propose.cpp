@@ -3,9 +3,9 @@
 #include "interpret/experiment/count_variants.h"
 #include "interpret/experiment/learn/search/param_curve.h"
 #include "interpret/experiment/learn/search/plateau.h"
-#include "interpret/experiment/relabelling.h"
 #include "interpret/language/quantity.h"
 #include "interpret/pack/names.h"
+#include "interpret/relabelling/relabelling.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>

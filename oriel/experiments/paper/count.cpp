@@ -1,4 +1,4 @@
-#include "oriel/experiments/count.h"
+#include "oriel/experiments/paper/count.h"
 
 #include "kernel/segment/segment.h"
 

@@ -1,4 +1,4 @@
-#include "cli/commands/rules_reference.h"
+#include "cli/commands/rules/rules_reference.h"
 #include "kernel/model/version.h"
 #include "studio/lsp/language_server.h"
 

@@ -1,4 +1,4 @@
-#include "interpret/experiment/changed_pack.h"
+#include "interpret/relabelling/changed_pack.h"
 
 #include "kernel/base/index.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "interpret/experiment/changed_pack.h"
 #include "interpret/pack/pack.h"
+#include "interpret/relabelling/changed_pack.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "cli/commands/rules_reference.h"
+#include "cli/commands/rules/rules_reference.h"
 
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"

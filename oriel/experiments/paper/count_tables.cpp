@@ -1,5 +1,5 @@
 #include "kernel/base/counted.h"
-#include "oriel/experiments/count.h"
+#include "oriel/experiments/paper/count.h"
 
 #include <algorithm>
 #include <array>

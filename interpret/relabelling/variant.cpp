@@ -1,8 +1,8 @@
-#include "interpret/experiment/variant.h"
+#include "interpret/relabelling/variant.h"
 
-#include "interpret/experiment/changed_pack.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
+#include "interpret/relabelling/changed_pack.h"
 #include "kernel/base/index.h"
 #include "kernel/base/sha256.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "interpret/evaluate/evaluation_context.h"
-#include "interpret/experiment/rule_uses.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/pack.h"
+#include "interpret/relabelling/rule_uses.h"
 
 #include <map>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "interpret/experiment/variant.h"
 #include "interpret/pack/pack.h"
 #include "interpret/params/settable_pack.h"
+#include "interpret/relabelling/variant.h"
 
 #include <cstddef>
 #include <utility>

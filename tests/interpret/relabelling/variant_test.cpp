@@ -1,4 +1,4 @@
-#include "interpret/experiment/variant.h"
+#include "interpret/relabelling/variant.h"
 
 #include "tests/interpret/random_scene.h"
 
@@ -32,7 +32,7 @@ std::string names(const std::vector<Variant>& variants) {
 
 }  // namespace
 
-TEST_SUITE("interpret/experiment") {
+TEST_SUITE("interpret/relabelling") {
   TEST_CASE("ablations name every piece that can be left out at its place") {
     CHECK(names(ablations(load(kFewRules))) ==
           "6:5 without rule opening.any\n"

@@ -1,7 +1,7 @@
-#include "oriel/experiments/paper_tables.h"
+#include "oriel/experiments/paper/paper_tables.h"
 
 #include "kernel/io/reader.h"
-#include "oriel/experiments/count.h"
+#include "oriel/experiments/paper/count.h"
 #include "oriel/segment.h"
 
 #include <algorithm>

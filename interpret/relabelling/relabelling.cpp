@@ -1,4 +1,4 @@
-#include "interpret/experiment/relabelling.h"
+#include "interpret/relabelling/relabelling.h"
 
 #include "interpret/evaluate/evaluator.h"
 #include "kernel/base/index.h"

@@ -1,4 +1,4 @@
-#include "interpret/experiment/rule_uses.h"
+#include "interpret/relabelling/rule_uses.h"
 
 #include "interpret/compile/counts.h"
 #include "kernel/base/index.h"
