@@ -34,7 +34,7 @@ export class Author {
     this.loop.adopt(text);
     const told = EditorView.updateListener.of(update => {
       if (!update.docChanged) return;
-      this.loop.change(update.state.doc.toString(), this.param !== null);
+      this.loop.change(update.state.doc.toString());
       this.tell();
     });
     this.view.setState(EditorState.create({doc: text, extensions: [extensions, this.settings.of([]), told]}));

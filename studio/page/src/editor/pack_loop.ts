@@ -4,8 +4,6 @@ import type {App} from '../app';
 import {SourceError} from '../source';
 import {words} from '../strings';
 
-/** Keystrokes of one word come as one question. */
-const kTypingPause_ms = 25;
 const kRetry_ms = 1000;
 
 export class PackLoop {
@@ -13,7 +11,6 @@ export class PackLoop {
   private needsAll = false;
   private isAsking = false;
   private isWaiting = false;
-  private timer: ReturnType<typeof setTimeout> | undefined;
   private readonly listeners: (() => void)[] = [];
 
   constructor(private readonly app: App) {}
@@ -27,30 +24,25 @@ export class PackLoop {
   /** The text that the page has asked about already. */
   adopt(text: string): void { this.text = text; }
 
-  /** The text has changed. `atOnce` leaves out the pause for typing. */
-  change(text: string, atOnce = false): void {
+  /** The text has changed. */
+  change(text: string): void {
     this.text = text;
     this.app.store.set({text});
-    this.schedule(atOnce ? 0 : kTypingPause_ms);
+    this.schedule();
   }
 
   /** Asks again, with the labels of all buildings. */
   refresh(): void {
     this.needsAll = true;
-    this.schedule(0);
+    this.schedule();
   }
 
-  private schedule(pause_ms: number): void {
+  private schedule(): void {
     this.isWaiting = true;
-    clearTimeout(this.timer);
-    this.timer = undefined;
-    if (this.isAsking) return;
-    if (pause_ms === 0) void this.ask();
-    else this.timer = setTimeout(() => void this.ask(), pause_ms);
+    if (!this.isAsking) void this.ask();
   }
 
   private async ask(): Promise<void> {
-    this.timer = undefined;
     this.isWaiting = false;
     this.isAsking = true;
     const all = this.needsAll;
