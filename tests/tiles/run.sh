@@ -4,19 +4,12 @@
 #   tests/tiles/run.sh [--install] [--full] [--pictures FOLDER] [ORIEL [ORIEL_GENERATE [FOLDER FOR PACKAGES]]]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+. "$here/../browser_tools.sh"
 root=$(realpath "$here/../..")
 is_full=false
-missing=()
-find_missing() {
-  missing=()
-  local program
-  for program in node npm chromium; do command -v "$program" >/dev/null || missing+=("$program"); done
-}
 while [ $# -gt 0 ]; do
   case $1 in
-    --install)
-      find_missing
-      if [ ${#missing[@]} -gt 0 ]; then "$root/examples/install_packages.sh" "${missing[@]/#node/nodejs}"; fi ;;
+    --install) install_missing ;;
     --full) is_full=true ;;
     --pictures) ORIEL_PICTURES=$(realpath -m "$2"); export ORIEL_PICTURES; shift ;;
     *) break ;;
@@ -26,22 +19,8 @@ done
 oriel=$(realpath "${1:-$root/build/release/cli/oriel}")
 generate=$(realpath "${2:-$root/build/release/examples/generator/oriel-generate}")
 packages=$(realpath -m "${3:-$root/build/release/tests/tiles_judges}")
-find_missing
-if [ ${#missing[@]} -gt 0 ]; then
-  echo "skipped: no ${missing[*]}; $0 --install installs it"
-  exit 77
-fi
-# The lock names one version of each and its hash.
-mkdir -p "$packages"
-if ! cmp -s "$here/package-lock.json" "$packages/node_modules/lock"; then
-  cp "$here/package.json" "$here/package-lock.json" "$packages/"
-  if ! (cd "$packages" && timeout 180 npm ci --no-audit --no-fund --ignore-scripts --fetch-retries=1 >npm.log 2>&1); then
-    tail -3 "$packages/npm.log"
-    echo "skipped: the packages cannot be had from the registry"
-    exit 77
-  fi
-  cp "$here/package-lock.json" "$packages/node_modules/lock"
-fi
+need_programs
+need_packages "$here" "$packages" 180
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 houses=6
