@@ -93,7 +93,8 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
     check_level(option, loaded.issues);
     report.add(loaded.issues);
     if (!loaded.value) return std::nullopt;
-    report.add(check_profile(*loaded.value, rules));
+    report.add(
+        check_profile(*loaded.value, rules, targets.scale ? ProfileUse::scale : ProfileUse::level));
     if (arguments.edge_min_m > 0)
       loaded.value = with_edge_min(std::move(*loaded.value), arguments.edge_min_m);
     if (targets.has_lods()) check_lod(option, loaded.value->level);
@@ -263,7 +264,7 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
   check_level("--profile", profile.issues);
   report.add(profile.issues);
   if (!profile.value) return ExitCode::rules;
-  report.add(check_profile(*profile.value, rules));
+  report.add(check_profile(*profile.value, rules, ProfileUse::scale));
   return write_series(arguments, scales, profile.value, rules, report);
 }
 

@@ -275,22 +275,38 @@ std::vector<std::string> embedded_profiles() {
   return names;
 }
 
-std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base) {
+namespace {
+
+Issue profile_warning(const Profile& profile, Code code, std::string sentence) {
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = code;
+  issue.sentence = std::move(sentence);
+  issue.place.file = profile.name;
+  return issue;
+}
+
+}  // namespace
+
+std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, ProfileUse use) {
   std::vector<Issue> issues;
+  const auto has_class = [&](const std::string& name) {
+    const auto& classes = base.pack().classes;
+    return std::ranges::find(classes, name, &rules::Class::name) != classes.end();
+  };
   for (const auto* list : {&profile.omit, &profile.keep})
-    for (const std::string& name : *list) {
-      if (std::ranges::find(base.pack().classes, name, &rules::Class::name) !=
-          base.pack().classes.end())
-        continue;
-      Issue issue;
-      issue.severity = Severity::warning;
-      issue.code = Code::R273;
-      issue.sentence =
-          fmt::format("the profile {} names the class '{}', which the pack {} does not have",
-                      profile.title(), name, base.name());
-      issue.place.file = profile.name;
-      issues.push_back(std::move(issue));
-    }
+    for (const std::string& name : *list)
+      if (!has_class(name))
+        issues.push_back(profile_warning(
+            profile, Code::R273,
+            fmt::format("the profile {} names the class '{}', which the pack {} does not have",
+                        profile.title(), name, base.name())));
+  if (use == ProfileUse::scale && profile.form != Profile::Form::as_is)
+    issues.push_back(profile_warning(
+        profile, Code::R276,
+        fmt::format("the profile {} makes blocks, which are a level of detail: at a scale the "
+                    "building keeps its form",
+                    profile.title())));
   return issues;
 }
 

@@ -83,9 +83,15 @@ Checked<Profile> load_profile_file(const std::string& name_and_level);
 /// The names of the profiles that were built in, sorted.
 std::vector<std::string> embedded_profiles();
 
-/// Classes that a profile names and the pack does not have: a warning R273 each. They are passed
-/// over.
-std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base);
+/// What a profile is used for.
+enum class ProfileUse {
+  level,  ///< its own level of detail
+  scale   ///< a map at some scale, or a series of them
+};
+
+/// What of a profile has no effect, which is probably not meant: a warning R273 for each class that
+/// it names and the pack does not have, R276 if it asks for blocks at a scale.
+std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, ProfileUse use);
 
 /// Adds to `plan`, which may be empty, what the profile asks for of features without a step there:
 /// first its lists of classes, then the verdict of significance, unless it is a part of the

@@ -8,7 +8,7 @@
 /// Every code that a finding can have: X(code, the number of val3dity's error that means the same
 /// or 0, what the code means), sorted. A code never changes its meaning and is never used again.
 /// Each has a section with this title in docs/errors.md, or in docs/rules.md for rule packs; those
-/// of profiles, R272 to R275, are in docs/generalisation.md, and those of experiments, R28x, in
+/// of profiles, R272 to R276, are in docs/generalisation.md, and those of experiments, R28x, in
 /// docs/experiments.md.
 ///
 /// E1xx the text of a file, E2xx the building model, E3xx geometry, E5xx limits, E6xx output, E9xx
@@ -199,6 +199,7 @@
   X(R273, 0, "A class of a profile that the pack does not have") \
   X(R274, 0, "Sizes of a profile that do not form a chain") \
   X(R275, 0, "No such level of a profile") \
+  X(R276, 0, "A form that a scale does not make") \
   X(R280, 0, "A pattern that matches no file") \
   X(R281, 0, "A value beyond the range of its param") \
   X(R282, 0, "A split with nothing on one side") \

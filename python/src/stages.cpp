@@ -189,7 +189,9 @@ std::pair<Targets, std::vector<Issue>> targets_of(std::optional<double> scale,
     auto loaded = load_profile_file(name);
     if (!loaded.value) throw InputError(loaded.issues.front());
     issues.insert(issues.end(), loaded.issues.begin(), loaded.issues.end());
-    for (Issue& issue : check_profile(*loaded.value, rules)) issues.push_back(std::move(issue));
+    const ProfileUse use = scale ? ProfileUse::scale : ProfileUse::level;
+    for (Issue& issue : check_profile(*loaded.value, rules, use))
+      issues.push_back(std::move(issue));
     if (edge_min) loaded.value = with_edge_min(std::move(*loaded.value), *edge_min);
     targets.profiles.push_back(std::move(*loaded.value));
   }

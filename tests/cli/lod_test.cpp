@@ -69,6 +69,20 @@ json with_neighbour() {
 }  // namespace
 
 TEST_SUITE("cli") {
+  TEST_CASE("a profile of blocks at a scale is a warning and makes none") {
+    const Folder folder;
+    const Outcome made = run(
+        {"generalise", sample("house"), "--scale", "1:10000", "--profile", "lod:1.2", "-o", "-"});
+    CHECK(made.exit == 0);
+    CHECK(made.says("R276 the profile lod:1.2 makes blocks"));
+    CHECK(run({"generalise", sample("block"), "--series", "1:500,1:5000", "--profile", "lod:1.3",
+               "-o", folder / "s"})
+              .says("R276"));
+    CHECK(run({"tiles", sample("block"), "--profile", "lod:1.3", "-o", folder / "t"}).says("R276"));
+    CHECK_FALSE(
+        run({"generalise", sample("house"), "--profile", "lod:1.2", "-o", "-"}).says("R276"));
+  }
+
   TEST_CASE("level 3 of citygml keeps windows and doors, which make it level 3") {
     const auto kept = [](const std::string& level) {
       const Outcome made =

@@ -99,7 +99,7 @@ TEST_SUITE("interpret") {
       REQUIRE_MESSAGE(loaded.value, name);
       CHECK(loaded.issues.empty());
       CHECK(loaded.value->thresholds(1000)->is_chain());
-      CHECK(check_profile(*loaded.value, residential).empty());
+      CHECK(check_profile(*loaded.value, residential, ProfileUse::level).empty());
     }
     const auto all = load_profile_file("plateau:3.3");
     REQUIRE(all.value);
@@ -159,8 +159,22 @@ TEST_SUITE("interpret") {
   TEST_CASE("classes that the pack does not have are told") {
     const auto loaded = load_profile(profile_with("{form: as-is, omit: [dormr]}"), "p.yaml", "");
     REQUIRE(loaded.value);
-    const auto issues = check_profile(*loaded.value, *load_pack_file("residential").value);
+    const auto issues =
+        check_profile(*loaded.value, *load_pack_file("residential").value, ProfileUse::scale);
     REQUIRE(issues.size() == 1);
     CHECK(issues[0].code == Code::R273);
+  }
+
+  TEST_CASE("blocks that are asked for at a scale are told") {
+    const RuleBase residential = *load_pack_file("residential").value;
+    for (const char* name : {"lod:1.2", "lod:1.3"}) {
+      const Profile profile = *load_profile_file(name).value;
+      CHECK(check_profile(profile, residential, ProfileUse::level).empty());
+      const auto issues = check_profile(profile, residential, ProfileUse::scale);
+      REQUIRE(issues.size() == 1);
+      CHECK(issues[0].code == Code::R276);
+      CHECK(issues[0].severity == Severity::warning);
+    }
+    CHECK(check_profile(*load_profile_file("map").value, residential, ProfileUse::scale).empty());
   }
 }
