@@ -64,6 +64,7 @@
   X(E165, 0, "Attributes of one name that differ in type") \
   X(E166, 0, "An installation that stays open") \
   X(E167, 0, "STL syntax") \
+  X(E168, 0, "Objects that a format has no place for") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that does not exist") \

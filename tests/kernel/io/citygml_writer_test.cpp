@@ -134,6 +134,24 @@ TEST_SUITE("kernel/io") {
     }
   }
 
+  TEST_CASE("objects that are not written are counted by type") {
+    json city = json::parse(labelled_box().text());
+    city["CityObjects"]["street"] = {{"type", "Road"}, {"geometry", json::array()}};
+    city["CityObjects"]["lane"] = {{"type", "Road"}, {"geometry", json::array()}};
+    city["CityObjects"]["tree"] = {{"type", "PlantCover"}, {"geometry", json::array()}};
+    const TemporaryFolder folder;
+    const auto records = read_all(folder.write("a.city.json", city.dump()));
+    for (const Format format : kVersions) {
+      std::vector<Issue> issues;
+      for (const auto& record : records)
+        citygml_text(write_cityjson(*record.value, {}), *record.value, format, false, issues);
+      REQUIRE(issues.size() == 1);
+      CHECK(issues[0].code == Code::E168);
+      CHECK(issues[0].severity == Severity::warning);
+      CHECK(issues[0].sentence.ends_with("are left out: 1 PlantCover, 2 Road"));
+    }
+  }
+
   TEST_CASE("the reference system comes back as it was") {
     for (const Format version : kVersions) {
       const auto record = read_text(gml_of_text(labelled_box().text(), version), "a.gml");

@@ -14,6 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace oriel {
 
 namespace detail {
@@ -67,6 +70,14 @@ class GmlWriter {
       out_ += "</core:cityObjectMember>\n";
     }
     return std::move(out_);
+  }
+
+  /// How many objects members() has not written, by type.
+  [[nodiscard]] std::map<std::string, int> left_out() const {
+    std::map<std::string, int> counts;
+    for (std::size_t i = 0; i < record_.objects.size(); ++i)
+      if (!written_.contains(i)) ++counts[record_.objects[i].type];
+    return counts;
   }
 
  private:
@@ -450,6 +461,19 @@ class GmlWriter {
   std::map<std::pair<char, PolygonRings>, std::string> place_of_;
 };
 
+/// What is not in the file that the record had.
+Issue left_out_warning(const std::map<std::string, int>& counts, const std::string& file) {
+  std::vector<std::string> words;
+  for (const auto& [type, count] : counts) words.push_back(fmt::format("{} {}", count, type));
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E168;
+  issue.sentence = fmt::format("objects that oriel does not write as CityGML are left out: {}",
+                               fmt::join(words, ", "));
+  issue.place.file = file;
+  return issue;
+}
+
 }  // namespace
 
 }  // namespace detail
@@ -471,7 +495,11 @@ std::string citygml_text(std::string_view text, const Document& document, Format
     out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     out += version == detail::GmlVersion::two ? detail::kStart2 : detail::kStart3;
   }
-  return out + detail::GmlWriter(record, version, crs).members();
+  detail::GmlWriter writer(record, version, crs);
+  out += writer.members();
+  if (const auto counts = writer.left_out(); !counts.empty())
+    issues.push_back(detail::left_out_warning(counts, document.name));
+  return out;
 }
 
 std::string citygml_end() { return "</core:CityModel>\n"; }

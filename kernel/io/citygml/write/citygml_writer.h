@@ -16,7 +16,7 @@ namespace oriel {
 /// and its buildings, a line of a stream its building. Of one record nothing depends on another.
 ///
 /// - Buildings with their parts, installations and (3.0) constructive elements; in 2.0 the latter
-///   are installations. Other objects are left out.
+///   are installations. Other objects are left out, and `issues` gets a warning E168.
 /// - Openings lie in the surface that they have as parent, and in a WallSurface without polygons
 ///   where they have none. Polygons of surfaces that are neither a boundary surface of CityGML nor
 ///   an opening are written without them.
