@@ -118,8 +118,8 @@ bool are_folded(const RingList& faces, const std::vector<const CityPolygon*>& re
   return false;
 }
 
-/// The number of the ClosureSurface of a geometry, which is made if it has none.
-int closure_surface(CityGeometry& geometry) {
+/// Gives a geometry one more ClosureSurface; its number.
+int add_closure_surface(CityGeometry& geometry) {
   geometry.surfaces.push_back({"ClosureSurface", -1, {}});
   return static_cast<int>(geometry.surfaces.size()) - 1;
 }
@@ -203,7 +203,7 @@ class InstallationCloser {
                         std::vector<CityPolygon>& shell, CityGeometry& solid,
                         CityGeometry& shared) {
     std::erase_if(shell, [&](const CityPolygon& one) { return rings.contains(one.rings); });
-    const int of_solid = closure_surface(solid), of_shared = closure_surface(shared);
+    const int of_solid = add_closure_surface(solid), of_shared = add_closure_surface(shared);
     shared.type = "Solid";
     for (const VertexRing& loop : loops) {
       shell.push_back({{loop}, of_solid});
