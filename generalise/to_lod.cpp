@@ -63,6 +63,8 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
       note("parts of its roof meet in a vertical edge: it became one block");
     if (made.value->is_from_above)
       note("its ground is less than half of what is seen from above, which became the footprint");
+    if (made.value->keeps_footprint)
+      note("a simpler footprint would make no closed solid: it keeps all its edges");
     if (made.value->short_edges > 0)
       note(
           fmt::format("{} of its footprint below {} m cannot go: too much ground would be covered "

@@ -252,6 +252,7 @@ class BlockBuilder {
   /// Where that makes no closed solid the footprint stays as it is.
   void simplify(Blocks& result) const {
     auto simpler = detail::simplify_footprint(result.solid, options_, tolerances_);
+    result.keeps_footprint = !simpler;
     if (!simpler) return;
     result.solid = std::move(simpler->solid);
     result.short_edges = simpler->short_edges;

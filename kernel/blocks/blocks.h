@@ -48,6 +48,8 @@ struct Blocks {
   bool is_simplified = false;
   /// Edges of the footprint below BlockOptions::least_edge_m that had to stay.
   int short_edges = 0;
+  /// The footprint has all its edges, since no closed solid came of a simpler one.
+  bool keeps_footprint = false;
 };
 
 /// Blocks over the footprint of `solid`, from its lowest ground to the height that `options` say.

@@ -19,10 +19,6 @@ namespace {
 constexpr double kLeastSine = 0.17;  // 10°
 /// Sides that run against each other deviate by less from opposite directions.
 constexpr double kAgainst = -0.985;  // 10°
-/// Edges of which one goes on in the direction of the other, but for rounding.
-constexpr double kStraightSine = 1e-7;
-/// Lengths are told apart so well.
-constexpr double kRounding_m = 1e-6;
 
 Vec3 direction(Vec3 from, Vec3 to) { return (1 / length(to - from)) * (to - from); }
 
@@ -100,7 +96,7 @@ class OutlineSimplifier {
     for (std::size_t o = 0; o < outlines_.size(); ++o)
       for (std::size_t i = 0; i < outlines_[o].size(); ++i)
         if (const double m = length(corner(o, i, 1) - corner(o, i, 0));
-            m < limits_.least_edge_m - kRounding_m)
+            m < limits_.least_edge_m - limits_.reach_m)
           edges.push_back({m, o, i});
     std::ranges::sort(edges, {}, [&](const Edge& e) {
       const Vec3 p = corner(e.outline, e.index, 0);
@@ -261,10 +257,8 @@ class OutlineSimplifier {
       const std::size_t n = outline.size();
       const Vec3 p = outline[i], before = outline[(i + n - 1) % n], behind = outline[(i + 1) % n];
       const bool is_twin = length(behind - p) <= limits_.reach_m / 2;
-      const bool is_straight =
-          !is_twin && length(p - before) > 0 &&
-          std::abs(sine(direction(before, p), direction(p, behind))) < kStraightSine &&
-          dot(p - before, behind - p) > 0;
+      const bool is_straight = !is_twin && dot(p - before, behind - p) > 0 &&
+                               distance_to_segment(p, before, behind) <= kThin_m;
       if (!is_twin && !is_straight) {
         ++i;
         continue;

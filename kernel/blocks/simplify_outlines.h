@@ -10,7 +10,7 @@ namespace oriel::detail {
 
 /// How outlines in the plan are simplified.
 struct OutlineLimits {
-  /// Shorter edges go, where they can.
+  /// Edges that are shorter by more than the reach go, where they can.
   double least_edge_m = 0;
   /// Nothing comes nearer to anything else; what lies this near to a straight edge is on it.
   double reach_m = 0;

@@ -3,6 +3,7 @@
 #include "kernel/base/index.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,24 +33,39 @@ Invariants with_party_walls(Invariants invariants, const Document& document,
   return invariants;
 }
 
+namespace {
+
+Box box_around(const Building& building) {
+  Box box;
+  for (const Polygon& polygon : building.polygons)
+    for (const auto& ring : polygon.rings)
+      for (const int vertex : ring) box.grow(building.vertices[at(vertex)]);
+  return box;
+}
+
+/// The boxes of all buildings of a document but one, in the coordinates of that.
+std::vector<Box> boxes_of_others(const Document& document, const Building& building) {
+  std::vector<Box> boxes;
+  for (const Building& other : document.buildings)
+    if (other.id != building.id)
+      boxes.push_back(box_around(other).moved(other.frame.origin_m - building.frame.origin_m));
+  return boxes;
+}
+
+}  // namespace
+
 std::function<bool(const Box& local_m)> free_ground(const Document& document,
                                                     const Building& building) {
-  std::vector<Box> others;
-  for (const Building& other : document.buildings) {
-    if (other.id == building.id) continue;
-    Box box;
-    for (const Polygon& polygon : other.polygons)
-      for (const auto& ring : polygon.rings)
-        for (const int vertex : ring) box.grow(other.vertices[at(vertex)]);
-    others.push_back(box.moved(other.frame.origin_m - building.frame.origin_m));
-  }
-  if (others.empty()) return {};
-  return [others = std::move(others)](const Box& asked) {
-    return std::ranges::none_of(others, [&](const Box& box) {
-      return box.min.x <= asked.max.x && asked.min.x <= box.max.x && box.min.y <= asked.max.y &&
-             asked.min.y <= box.max.y;
-    });
-  };
+  if (document.buildings.size() < 2) return {};
+  // Most buildings never ask.
+  return
+      [&document, &building, others = std::optional<std::vector<Box>>()](const Box& asked) mutable {
+        if (!others) others = boxes_of_others(document, building);
+        return std::ranges::none_of(*others, [&](const Box& box) {
+          return box.min.x <= asked.max.x && asked.min.x <= box.max.x && box.min.y <= asked.max.y &&
+                 asked.min.y <= box.max.y;
+        });
+      };
 }
 
 }  // namespace oriel

@@ -24,6 +24,7 @@ Invariants with_party_walls(Invariants invariants, const Document& document,
 
 /// Whether a box of the building's plan is free of all other buildings of the document, seen from
 /// above and by their boxes. Null if it has no others: then nobody knows what stands beside it.
+/// Both outlive the answer.
 std::function<bool(const Box& local_m)> free_ground(const Document& document,
                                                     const Building& building);
 
