@@ -10,7 +10,9 @@ namespace oriel::detail {
 /// between blanks; a '#' at the start of a word starts a comment that reaches to the line's end.
 class WordReader {
  public:
-  explicit WordReader(std::string_view text) : text_(text) {}
+  /// The first line starts at `start`.
+  explicit WordReader(std::string_view text, std::size_t start = 0)
+      : text_(text), next_start_(start) {}
 
   /// Moves to the next line that has a word; false at the end of the text.
   bool next_line();

@@ -1,11 +1,10 @@
 #include "kernel/base/counted.h"
-#include "kernel/io/json/words.h"
 #include "kernel/io/mesh/mesh_reader.h"
+#include "kernel/io/mesh/ply_values.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,149 +13,42 @@ namespace oriel::detail {
 
 namespace {
 
-constexpr std::array<std::string_view, 16> kTypes{
-    "char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
-    "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
-
-struct PlyProperty {
-  std::string name;
-  bool is_list = false;
-};
-
-struct PlyElement {
-  std::string name;
-  long long count = 0;
-  std::vector<PlyProperty> properties{};
-
-  /// The place of a property, or nothing.
-  [[nodiscard]] std::optional<std::size_t> find(std::string_view property) const {
-    const auto found = std::ranges::find(properties, property, &PlyProperty::name);
-    if (found == properties.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - properties.begin());
-  }
-};
-
 class PlyReader {
  public:
-  PlyReader(std::string_view text, const TextName& name) : name_(name), text_(text), words_(text) {}
+  PlyReader(std::string_view text, const TextName& name, const PlyHeader& header)
+      : name_(name), header_(header), text_(text), values_(ply_values(text, name, header)) {}
 
   Checked<Document> read() {
-    if (!read_header()) return refuse();
-    for (const PlyElement& element : elements_)
-      for (long long i = 0; i < element.count; ++i)
-        if (!read_line(element, i)) return refuse();
-    if (words_.next_line()) {
-      fail(fmt::format("{} follows the last element; expected the end of the file",
-                       in_quotes(*words_.next_word())));
-      return refuse();
-    }
+    if (!check_elements() || !read_elements()) return {std::nullopt, {std::move(*issue_)}};
     return document_of(std::move(mesh_), name_, Format::ply);
   }
 
  private:
-  Checked<Document> refuse() { return {std::nullopt, {std::move(*issue_)}}; }
-
-  bool fail(std::string sentence, Code code = Code::E110) {
-    issue_ = error_at(name_, text_, words_.offset(), {code, std::move(sentence)});
+  bool fail(Fault fault) {
+    issue_ = values_->error(
+        element_ == nullptr ? std::string() : fmt::format("{} {}", element_->name, number_),
+        std::move(fault));
     return false;
   }
 
-  /// The next word, or an empty one at the line's end.
-  std::string_view word() { return words_.next_word().value_or(std::string_view()); }
-
-  bool ends_line(std::string_view what) {
-    const std::string_view more = word();
-    return more.empty() || fail(fmt::format("{} follows {}", in_quotes(more), what));
+  bool fail(std::string sentence, Code code = Code::E110) {
+    return fail({code, std::move(sentence)});
   }
 
-  bool read_header() {
-    if (!words_.next_line()) return fail("the file is empty; expected ply", Code::E102);
-    if (const std::string_view first = word(); first != "ply")
-      return fail(fmt::format("starts with {}; expected ply", in_quotes(first)), Code::E107);
-    if (!ends_line("ply") || !read_format()) return false;
-    while (words_.next_line()) {
-      const std::string_view keyword = word();
-      if (keyword == "end_header") return ends_line(keyword) && check_elements();
-      if (!read_statement(keyword)) return false;
-    }
-    return fail("the file ends within its header; expected end_header");
-  }
-
-  bool read_format() {
-    if (!words_.next_line() || word() != "format")
-      return fail("expected format ascii 1.0 after ply");
-    if (const std::string_view kind = word(); kind != "ascii")
-      return fail(
-          fmt::format("the format is {}; expected ascii: binary PLY is not read", in_quotes(kind)));
-    if (const std::string_view version = word(); version != "1.0")
-      return fail(fmt::format("the version is {}; expected 1.0", in_quotes(version)));
-    return ends_line("the version");
-  }
-
-  bool read_statement(std::string_view keyword) {
-    if (keyword == "obj_info") return true;
-    if (keyword == "comment") return read_comment();
-    if (keyword == "element") return read_element();
-    if (keyword == "property") return read_property();
-    return fail(
-        fmt::format("unknown statement {}; expected element, property, comment or "
-                    "end_header",
-                    in_quotes(keyword)));
-  }
-
-  /// "comment feature 3 house window_w12" names a feature; all others are passed over.
-  bool read_comment() {
-    if (word() != "feature") return true;
-    if (const auto number = as_whole(word())) features_[*number] = words_.rest_of_line();
-    return true;
-  }
-
-  bool read_element() {
-    PlyElement element{std::string(word())};
-    const auto count = as_whole(word());
-    if (!count || *count < 0)
-      return fail(fmt::format("expected a number of elements after {}", in_quotes(element.name)));
-    if (std::ranges::find(elements_, element.name, &PlyElement::name) != elements_.end())
-      return fail(fmt::format("the element {} occurs here twice", in_quotes(element.name)));
-    element.count = *count;
-    elements_.push_back(std::move(element));
-    return ends_line("the number of elements");
-  }
-
-  bool read_type(std::string_view type) {
-    return std::ranges::find(kTypes, type) != kTypes.end() ||
-           fail(fmt::format("{} is not a type of a property", in_quotes(type)));
-  }
-
-  bool read_property() {
-    if (elements_.empty()) return fail("a property before any element");
-    PlyProperty property;
-    std::string_view type = word();
-    property.is_list = type == "list";
-    if (property.is_list) {
-      if (!read_type(word())) return false;
-      type = word();
-    }
-    if (!read_type(type)) return false;
-    property.name = word();
-    if (property.name.empty()) return fail("a property without a name");
-    if (elements_.back().find(property.name))
-      return fail(fmt::format("the property {} occurs here twice", in_quotes(property.name)));
-    elements_.back().properties.push_back(std::move(property));
-    return ends_line("the name of a property");
+  bool fail_in_header(std::string sentence) {
+    issue_ = error_at(name_, text_, header_.end - 1, {Code::E110, std::move(sentence)});
+    return false;
   }
 
   /// Finds the properties that are read.
   bool check_elements() {
-    for (const PlyElement& element : elements_) {
-      if (element.properties.empty())
-        return fail(fmt::format("the element {} has no property", in_quotes(element.name)));
+    for (const PlyElement& element : header_.elements) {
       if (element.name == "vertex" && !find_coordinates(element)) return false;
       if (element.name == "face" && !find_corners(element)) return false;
     }
     for (const std::string_view name : {"vertex", "face"})
-      if (std::ranges::find(elements_, name, &PlyElement::name) == elements_.end())
-        return fail(fmt::format("the header has no element {}", in_quotes(name)));
+      if (std::ranges::find(header_.elements, name, &PlyElement::name) == header_.elements.end())
+        return fail_in_header(fmt::format("the header has no element {}", in_quotes(name)));
     return true;
   }
 
@@ -165,8 +57,8 @@ class PlyReader {
     constexpr std::array<std::string_view, 3> kNames{"x", "y", "z"};
     for (std::size_t i = 0; i < kNames.size(); ++i) {
       const auto place = element.find(kNames[i]);
-      if (!place || element.properties[*place].is_list)
-        return fail(fmt::format("a vertex has no number {}", kNames[i]));
+      if (!place || element.properties[*place].is_list())
+        return fail_in_header(fmt::format("a vertex has no number {}", kNames[i]));
       coordinates_[i] = *place;
     }
     return true;
@@ -175,22 +67,37 @@ class PlyReader {
   bool find_corners(const PlyElement& element) {
     auto place = element.find("vertex_indices");
     if (!place) place = element.find("vertex_index");
-    if (!place || !element.properties[*place].is_list)
-      return fail("a face has no list vertex_indices");
+    if (!place || !element.properties[*place].is_list())
+      return fail_in_header("a face has no list vertex_indices");
     corners_ = *place;
     feature_ = element.find("feature");
     return true;
   }
 
-  /// Reads the line of element `i`: its numbers, those of lists with their count before them.
-  bool read_line(const PlyElement& element, long long i) {
-    if (!words_.next_line())
+  bool read_elements() {
+    for (const PlyElement& element : header_.elements)
+      for (long long i = 0; i < element.count; ++i)
+        if (!read_element(element, i)) return false;
+    element_ = nullptr;
+    const auto more = values_->rest_of_file();
+    return !more || fail(*more + " the last element; expected the end of the file");
+  }
+
+  /// Reads element `i`: its numbers, those of lists with their count before them.
+  bool read_element(const PlyElement& element, long long i) {
+    element_ = nullptr;
+    if (!values_->next_element())
       return fail(fmt::format("the file ends after {} of {} elements {}", i, element.count,
-                              in_quotes(element.name)));
+                              in_quotes(element.name)),
+                  header_.encoding == PlyEncoding::words ? Code::E110 : Code::E105);
+    element_ = &element;
+    number_ = i;
     const bool is_good = element.name == "vertex" ? read_vertex(element)
                          : element.name == "face" ? read_face(element)
                                                   : pass_others(element);
-    return is_good && ends_line("the last property");
+    if (!is_good) return false;
+    const auto more = values_->rest_of_element();
+    return !more || fail(*more + " the last property");
   }
 
   bool read_vertex(const PlyElement& element) {
@@ -212,11 +119,12 @@ class PlyReader {
   bool read_face(const PlyElement& element) {
     std::string hint;
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
-      if (p == feature_ && !element.properties[p].is_list) {
-        const auto number = read_number(element.properties[p]);
+      const PlyProperty& property = element.properties[p];
+      if (p == feature_ && !property.is_list()) {
+        const auto number = read_number(property);
         if (!number) return false;
         hint = name_of_feature(*number);
-      } else if (p == corners_ ? !read_corners() : !pass(element.properties[p])) {
+      } else if (p == corners_ ? !read_corners(property) : !pass(property)) {
         return false;
       }
     }
@@ -230,15 +138,13 @@ class PlyReader {
   }
 
   bool pass(const PlyProperty& property) {
-    return property.is_list ? pass_list(property) : read_number(property).has_value();
+    return property.is_list() ? pass_list(property) : read_number(property).has_value();
   }
 
   std::optional<double> read_number(const PlyProperty& property) {
-    const std::string_view text = word();
-    const auto number = as_double(text);
-    if (!number)
-      fail(text.empty() ? fmt::format("the line ends before the property {}", property.name)
-                        : fmt::format("{} is not a number", in_quotes(text)));
+    Fault wrong;
+    const auto number = values_->number(property, wrong);
+    if (!number) fail(std::move(wrong));
     return number;
   }
 
@@ -248,23 +154,22 @@ class PlyReader {
                 Code::E506);
   }
 
-  std::optional<long long> read_count() {
-    const std::string_view text = word();
-    const auto count = as_whole(text);
-    if (count && *count >= 0) return count;
-    fail(fmt::format("{} is not the length of a list", in_quotes(text)));
-    return std::nullopt;
+  std::optional<long long> read_length(const PlyProperty& property) {
+    Fault wrong;
+    const auto length = values_->length(property, wrong);
+    if (!length) fail(std::move(wrong));
+    return length;
   }
 
   bool pass_list(const PlyProperty& property) {
-    const auto count = read_count();
+    const auto count = read_length(property);
     for (long long i = 0; count && i < *count; ++i)
       if (!read_number(property)) return false;
     return count.has_value();
   }
 
-  bool read_corners() {
-    const auto count = read_count();
+  bool read_corners(const PlyProperty& property) {
+    const auto count = read_length(property);
     if (!count) return false;
     if (*count < 3)
       return fail(fmt::format("a face of {}; expected 3 or more (val3dity 101 "
@@ -273,8 +178,13 @@ class PlyReader {
                   Code::E311);
     std::vector<int> face;
     for (long long i = 0; i < *count; ++i) {
-      const auto number = as_whole(word());
-      if (!number) return fail(fmt::format("a face of {} vertices lists {}", *count, i));
+      Fault wrong;
+      const auto number = values_->whole(property, wrong);
+      if (!number) {
+        wrong.sentence =
+            fmt::format("a face of {} vertices lists {}: {}", *count, i, wrong.sentence);
+        return fail(std::move(wrong));
+      }
       if (*number < 0 || *number >= vertex_count_)
         return fail(fmt::format("there is no vertex {}; there {} {}, counted from 0", *number,
                                 agreeing(vertex_count_, "is", "are"), vertex_count_),
@@ -286,15 +196,17 @@ class PlyReader {
   }
 
   [[nodiscard]] std::string name_of_feature(double number) const {
-    const auto found = features_.find(std::isfinite(number) ? std::llround(number) : -1);
-    return found == features_.end() ? std::string() : found->second;
+    const auto found = header_.features.find(std::isfinite(number) ? std::llround(number) : -1);
+    return found == header_.features.end() ? std::string() : found->second;
   }
 
   const TextName& name_;
+  const PlyHeader& header_;
   std::string_view text_;
-  WordReader words_;
-  std::vector<PlyElement> elements_;
-  std::map<long long, std::string> features_;
+  std::unique_ptr<PlyValues> values_;
+  /// The one that is read and its number; null between two.
+  const PlyElement* element_ = nullptr;
+  long long number_ = 0;
   long long vertex_count_ = 0;
   /// Places of properties: of vertices x, y, z, of faces the corners and the feature.
   std::array<std::size_t, 3> coordinates_{};
@@ -307,7 +219,9 @@ class PlyReader {
 }  // namespace
 
 Checked<Document> read_ply(std::string_view text, const TextName& name) {
-  return PlyReader(text, name).read();
+  Checked<PlyHeader> header = read_ply_header(text, name);
+  if (!header.value) return {std::nullopt, std::move(header.issues)};
+  return PlyReader(text, name, *header.value).read();
 }
 
 }  // namespace oriel::detail

@@ -187,7 +187,7 @@ TEST_SUITE("kernel/io") {
           {"\n", "E102", 2},
           {"ply x\n", "E110", 1},
           {"ply\n", "E110", 2},
-          {"ply\nformat binary_little_endian 1.0\n", "E110", 2},
+          {"ply\nformat binary 1.0\n", "E110", 2},
           {"ply\nformat ascii 2.0\n", "E110", 2},
           {head, "E110", 3},
           {head + "property float x\n", "E110", 3},
