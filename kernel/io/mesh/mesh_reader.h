@@ -31,11 +31,11 @@ Checked<Document> read_obj(std::string_view text, const TextName& name);
 /// something follows; E203, E311 and E506 as for OBJ. Reading stops at the first finding.
 Checked<Document> read_off(std::string_view text, const TextName& name);
 
-/// Reads a PLY file, ASCII or binary of either byte order: elements `vertex` with x, y, z and `face`
-/// with the list vertex_indices (or vertex_index); further properties and elements are passed over.
-/// A face's hint is what a comment of the header calls its `feature`, as write_ply writes it. E110
-/// for a header or an element that is anything else, E105 for a binary file that ends too soon;
-/// E203, E311 and E506 as for OBJ. Reading stops at the first finding.
+/// Reads a PLY file, ASCII or binary of either byte order: elements `vertex` with x, y, z and
+/// `face` with the list vertex_indices (or vertex_index); further properties and elements are
+/// passed over. A face's hint is what a comment of the header calls its `feature`, as write_ply
+/// writes it. E110 for a header or an element that is anything else, E105 for a binary file that
+/// ends too soon; E203, E311 and E506 as for OBJ. Reading stops at the first finding.
 Checked<Document> read_ply(std::string_view text, const TextName& name);
 
 /// Reads an STL file, ASCII or binary (little-endian; the size of the file, not its first word,
