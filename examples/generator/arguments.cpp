@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace oriel::generator {
 namespace {
@@ -133,8 +134,10 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--style", typed.style,
                  "continental: single houses, described by the options below; english: terraces, "
-                 "pairs, town rows and flats, whose sizes and features are drawn at random")
-      ->check(CLI::IsMember({"continental", "english"}))
+                 "pairs, town rows and flats, whose sizes and features are drawn at random; city: "
+                 "terraces, blocks around courtyards and single houses along streets, where "
+                 "neighbours share walls")
+      ->check(CLI::IsMember({"continental", "english", "city"}))
       ->capture_default_str();
   app.add_option("--roof", typed.roof, "flat, gable, hip, shed or mixed")
       ->check(CLI::IsMember({"flat", "gable", "hip", "shed", "mixed"}))
@@ -183,17 +186,19 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
       "with one file for all houses: where to write the truths, a .jsonl file or a folder");
 }
 
-/// English houses refuse what describes a single continental one.
-void refuse_unused(const CLI::App& app) {
+/// Other styles refuse what describes a single continental house.
+void refuse_unused(const CLI::App& app, std::string_view style) {
   for (const char* option : {"--roof", "--storeys", "--width", "--depth", "--features", "--chimney",
                              "--windows", "--add"})
     if (app.count(option) > 0)
-      throw CLI::ValidationError(option, "is for --style continental; english houses draw it");
+      throw CLI::ValidationError(
+          option, fmt::format("is for --style continental; {} houses draw it", style));
 }
 
 void understand(const Typed& typed, Arguments& arguments) {
   Options& options = arguments.options;
-  if (typed.style == name_of(Style::english)) options.style = Style::english;
+  for (const Style style : {Style::english, Style::city})
+    if (typed.style == name_of(style)) options.style = style;
   options.roof = roof(typed.roof);
   options.chimney = chimney(typed.chimney);
   if (!typed.storeys.empty()) {
@@ -241,7 +246,7 @@ std::optional<int> read_arguments(int argc, const char* const* argv, Arguments& 
   try {
     app.parse(argc, argv);
     understand(typed, arguments);
-    if (arguments.options.style == Style::english) refuse_unused(app);
+    if (arguments.options.style != Style::continental) refuse_unused(app, typed.style);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help, out, err);
   } catch (const CLI::ParseError& error) {

@@ -1,5 +1,6 @@
 #include "examples/generator/generate.h"
 
+#include "examples/generator/city/city_house.h"
 #include "examples/generator/english/english_house.h"
 #include "examples/generator/facade/facade_layout.h"
 #include "examples/generator/geometry/triangulate.h"
@@ -76,8 +77,15 @@ Um lot_size(const Options& options) {
 }  // namespace
 
 Body generate(const Options& options, int index) {
-  Body body = build(options, index);
+  CityHouse house;
+  const bool is_in_city = options.style == Style::city;
+  if (is_in_city) {
+    Random random(options.seed, static_cast<std::uint64_t>(index));
+    house = build_city_house(options, index, random);
+  }
+  Body body = is_in_city ? std::move(house.body) : build(options, index);
   check(body, kFlatness, options, index);
+  if (is_in_city) put_in_place(house, body);
   Random random(~options.seed, static_cast<std::uint64_t>(index));
   // An exact body is cut while it is exact: rounded corners that were in line would make slivers. A
   // shaken one is cut last: triangles that are shaken would fold over each other.
@@ -86,7 +94,7 @@ Body generate(const Options& options, int index) {
   if (options.rotate_deg != 0) rotate(body, options.rotate_deg);
   if (options.noise > 0) shake(body, options.noise, random);
   if (options.triangulate && !is_exact) body = triangulated(body, random);
-  const Um lot = lot_size(options);
+  const Um lot = is_in_city ? 0 : lot_size(options);
   const Point place{index % kHousesInRow * lot, index / kHousesInRow * lot, 0};
   for (Point& p : body.vertices) p = p + place;
   const bool has_moved = options.triangulate || options.rotate_deg != 0 || options.noise > 0;

@@ -63,9 +63,10 @@ class FeatureSet {
 /// where hips meet.
 enum class ChimneyPlace { slope, ridge, apex };
 
-/// Whose houses: single ones as the options describe them, or rows, pairs and blocks of English
-/// brick houses, which draw all their sizes and features themselves.
-enum class Style { continental, english };
+/// Whose houses: single ones as the options describe them; rows, pairs and blocks of English brick
+/// houses, which draw all their sizes and features themselves; or those of a city, single houses,
+/// terraces and blocks whose neighbours share walls (city/city_house.h), which do so, too.
+enum class Style { continental, english, city };
 std::string_view name_of(Style style);
 
 template <class T>
@@ -77,8 +78,8 @@ struct Range {
 /// seed and i, not on the count.
 struct Options {
   std::uint64_t seed = 1;
-  /// English houses follow flush, jitter and what is applied to the finished body, and ignore the
-  /// other options below.
+  /// English houses and those of a city follow flush, jitter and what is applied to the finished
+  /// body, and ignore the other options below.
   Style style = Style::continental;
   /// Nothing: each house draws its own.
   std::optional<RoofKind> roof;
@@ -106,7 +107,8 @@ struct Options {
   /// Every coordinate is moved by at most this.
   Um noise = 0;
   bool triangulate = false;
-  /// Position of the first house, metres; further ones stand in rows beside it.
+  /// Position of the first house, metres; further ones stand in rows beside it, those of a city
+  /// where its plan has them.
   Point origin;
 };
 

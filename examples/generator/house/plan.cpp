@@ -137,7 +137,15 @@ FeatureSet features_for_bench() {
 }  // namespace
 
 std::string_view name_of(Style style) {
-  return style == Style::english ? "english" : "continental";
+  switch (style) {
+    case Style::english:
+      return "english";
+    case Style::city:
+      return "city";
+    case Style::continental:
+      break;
+  }
+  return "continental";
 }
 
 std::string_view name_of(Feature feature) {
