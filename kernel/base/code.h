@@ -65,6 +65,11 @@
   X(E166, 0, "An installation that stays open") \
   X(E167, 0, "STL syntax") \
   X(E168, 0, "Objects that a format has no place for") \
+  X(E175, 0, "Buildings that overlap") \
+  X(E176, 0, "A building inside another") \
+  X(E177, 0, "Neighbours in another reference system") \
+  X(E178, 0, "Walls that nearly touch") \
+  X(E179, 0, "Two buildings with one id") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that does not exist") \

@@ -1,0 +1,130 @@
+#include "kernel/neighbours/standing_building.h"
+
+#include "kernel/base/index.h"
+#include "kernel/model/tolerances.h"
+#include "kernel/neighbours/shared_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+using detail::Outline;
+
+constexpr Vec3 kUpwards{0, 0, 1};
+/// What is smaller does not make a contact of kContact_m2 even with a few of its like.
+constexpr double kLeastWall_m2 = 0.05;
+/// Of ground and roofs: the default pack's steepest roof, 75 degrees.
+constexpr double kSteepRoof = 0.2588;
+/// As kernel/blocks has it.
+constexpr double kGroundOver_m = 0.5;
+
+std::vector<Outline> rings_of(const Building& building, const Polygon& polygon) {
+  std::vector<Outline> out;
+  for (const auto& ring : polygon.rings) {
+    Outline& outline = out.emplace_back();
+    for (const int v : ring) outline.push_back(building.vertices[at(v)]);
+  }
+  return out;
+}
+
+Vec3 doubled_area_of(const Outline& outline) {
+  Vec3 sum;
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+    sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
+  return sum;
+}
+
+Box box_of_outline(const Outline& outline) {
+  Box box;
+  for (const Vec3 p : outline) box.grow(p);
+  return box;
+}
+
+/// Seen from above, the outer outline counter-clockwise.
+std::vector<Outline> flattened(std::vector<Outline> outlines) {
+  for (Outline& outline : outlines)
+    for (Vec3& p : outline) p.z = 0;
+  if (detail::signed_area(outlines[0], kUpwards) < 0)
+    for (Outline& outline : outlines) std::ranges::reverse(outline);
+  return outlines;
+}
+
+/// A polygon that is not steep.
+struct GentlePolygon {
+  std::vector<Outline> outlines;  ///< seen from above
+  double area_m2 = 0;
+  double mean_m = 0;  ///< of its corners' heights
+  bool looks_up = false;
+  bool is_low = false;
+};
+
+/// The mean height of the upper ones by area: of a closed building each spot has as many that look
+/// up as look down.
+double roof_height_m(const std::vector<GentlePolygon>& flats, double otherwise_m) {
+  double sum = 0, all_m2 = 0;
+  for (const GentlePolygon& flat : flats) {
+    if (!flat.looks_up || flat.is_low) continue;
+    sum += flat.area_m2 * flat.mean_m;
+    all_m2 += flat.area_m2;
+  }
+  return all_m2 > 0 ? sum / all_m2 : otherwise_m;
+}
+
+void take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out) {
+  double low_m2 = 0, up_m2 = 0;
+  for (const GentlePolygon& flat : flats) {
+    if (flat.is_low) low_m2 += flat.area_m2;
+    if (flat.looks_up) up_m2 += flat.area_m2;
+  }
+  const bool has_ground = low_m2 > 0 && low_m2 >= up_m2 / 2;
+  for (GentlePolygon& flat : flats) {
+    if (has_ground ? !flat.is_low : !flat.looks_up) continue;
+    out.ground_m2 += flat.area_m2;
+    out.ground.push_back(std::move(flat.outlines));
+  }
+}
+
+}  // namespace
+
+StandingBuilding standing_building(const Building& building) {
+  StandingBuilding out;
+  out.id = building.id;
+  out.crs = building.frame.crs;
+  out.origin_m = building.frame.origin_m;
+  std::vector<std::pair<std::vector<Outline>, Vec3>> polygons;
+  for (const Polygon& polygon : building.polygons) {
+    auto outlines = rings_of(building, polygon);
+    if (outlines.empty() || outlines[0].size() < 3) continue;
+    const Vec3 area = doubled_area_of(outlines[0]);
+    for (const Vec3 p : outlines[0]) out.box.grow(p);
+    if (length(area) > 0) polygons.emplace_back(std::move(outlines), area);
+  }
+  out.ground_m = out.box.is_empty() ? 0 : out.box.min.z;
+  std::vector<GentlePolygon> flats;
+  for (auto& [outlines, area] : polygons) {
+    const Vec3 normal = normalised(area);
+    if (std::abs(normal.z) <= kPartyWallLean) {
+      if (length(area) / 2 >= kLeastWall_m2) out.walls.push_back({std::move(outlines), normal, {}});
+      continue;
+    }
+    if (std::abs(normal.z) < kSteepRoof) continue;
+    GentlePolygon flat;
+    for (const Vec3 p : outlines[0]) flat.mean_m += p.z / static_cast<double>(outlines[0].size());
+    flat.looks_up = normal.z > 0;
+    const Box box = box_of_outline(outlines[0]);
+    flat.is_low = !flat.looks_up && box.max.z <= out.ground_m + kGroundOver_m;
+    flat.outlines = flattened(std::move(outlines));
+    flat.area_m2 = std::max(0.0, detail::figure_area_m2(flat.outlines, kUpwards));
+    flats.push_back(std::move(flat));
+  }
+  for (UprightWall& wall : out.walls) wall.box = box_of_outline(wall.outlines[0]);
+  out.roof_m = roof_height_m(flats, out.box.is_empty() ? 0 : out.box.max.z);
+  take_ground(flats, out);
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "kernel/geometry/planar.h"
+#include "kernel/model/building.h"
+#include "kernel/model/vec3.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// An upright polygon of a building, in the building's frame.
+struct UprightWall {
+  std::vector<detail::Outline> outlines;  ///< the outer one first
+  Vec3 normal;                            ///< out of the building, as its corners say
+  Box box;
+};
+
+/// What is kept of a building so that others know that it stands there.
+struct StandingBuilding {
+  std::string id;
+  std::string crs;
+  Vec3 origin_m;  ///< Frame::origin_m
+  Box box;        ///< in the frame
+  std::vector<UprightWall> walls;
+  /// The ground that it covers, seen from above: polygons within half a metre of its lowest point
+  /// that are not steep, or all that are not steep if these cover less than half of what the others
+  /// do. z = 0, outer outlines counter-clockwise. Pieces may lie on each other in the latter case.
+  std::vector<std::vector<detail::Outline>> ground;
+  double ground_m2 = 0;
+  double ground_m = 0;  ///< z of its lowest point
+  /// The mean height of what is seen of its roofs from above, by area, z in the frame.
+  double roof_m = 0;
+};
+
+/// Walls below a twentieth of a square metre, such as the sides of a window's recess, and polygons
+/// without area are left out.
+StandingBuilding standing_building(const Building& building);
+
+}  // namespace oriel
