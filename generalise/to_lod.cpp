@@ -40,7 +40,8 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
                         const Segmentation& segmentation, const FeatureTable& table,
                         const Interpretation& interpretation, const Profile& profile,
                         Generalised generalised, const Tolerances& tolerances,
-                        std::function<bool(const Box& gained)> may_cover) {
+                        std::function<bool(const Box& gained)> may_cover,
+                        std::function<bool(Vec3 from, Vec3 to)> is_shared) {
   Checked<Redrawn> out;
   if (profile.form == Profile::Form::as_is) {
     generalised.is_drawn_anew = true;
@@ -52,6 +53,7 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
     options.least_piece_m2 = profile.least_piece_m2;
     options.least_edge_m = profile.footprint_edge_m;
     options.may_cover = std::move(may_cover);
+    options.is_shared = std::move(is_shared);
     auto made = blocks(generalised.solid, building.id, options, tolerances);
     out.issues = std::move(made.issues);
     if (!made.value) return out;

@@ -14,12 +14,13 @@ namespace oriel {
 ///
 /// As it is: redraw(), with the whole geometry drawn anew. As blocks: kernel/blocks/blocks.h of the
 /// solid; each facet is a semantic surface RoofSurface, WallSurface or GroundSurface, and no
-/// installation is left. `may_cover`, of one block: BlockOptions::may_cover. Note G407 if blocks
-/// had to be simpler than asked for, G406 (error) and no value if there are none.
+/// installation is left. `may_cover` and `is_shared`, of one block: BlockOptions. Note G407 if
+/// blocks had to be simpler than asked for, G406 (error) and no value if there are none.
 Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
                         const Segmentation& segmentation, const FeatureTable& table,
                         const Interpretation& interpretation, const Profile& profile,
                         Generalised generalised, const Tolerances& tolerances = {},
-                        std::function<bool(const Box& gained)> may_cover = {});
+                        std::function<bool(const Box& gained)> may_cover = {},
+                        std::function<bool(Vec3 from, Vec3 to)> is_shared = {});
 
 }  // namespace oriel

@@ -294,10 +294,12 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
                             false, made.value->changed, made.value->uncleared};
   std::optional<Redrawn> redrawn;
   if (targets_.has_lods()) {
-    auto level =
-        to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation, *profile,
-               std::move(*made.value), result.tolerances,
-               profile->footprint_edge_m > 0 ? free_ground(document_, building_) : nullptr);
+    PlanLimits limits;
+    if (profile->footprint_edge_m > 0)
+      limits = plan_limits(document_, building_, result, options_.neighbours.get());
+    auto level = to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation,
+                        *profile, std::move(*made.value), result.tolerances,
+                        std::move(limits.may_cover), std::move(limits.is_shared));
     if (!keep(level.issues, out)) return std::nullopt;
     redrawn = std::move(level.value);
   } else {
@@ -323,7 +325,7 @@ Plan BuildingDrawer::plan_for(const Profile* profile, const PipelineResult& resu
 Invariants BuildingDrawer::invariants_for(const Profile* profile, const PipelineResult& result,
                                           Judging judging) const {
   Invariants invariants = with_party_walls(invariants_of(profile, rules_, targets_.scale),
-                                           document_, building_, *result.solid);
+                                           document_, building_, result);
   invariants.work = &work_;
   if (judging != Judging::none)
     invariants.validator = passing(

@@ -3,6 +3,7 @@
 #include "interpret/surfaces/annotate.h"
 #include "kernel/base/sha256.h"
 #include "oriel/explain.h"
+#include "oriel/pipeline/outlook.h"
 #include "oriel/pipeline/pipeline.h"
 
 #include <utility>
@@ -36,7 +37,8 @@ std::string configuration(const PipelineOptions& options) {
 std::string configuration(const LabelOptions& options) {
   const auto& of_pipeline = static_cast<const PipelineOptions&>(options);
   return configuration(of_pipeline) +
-         (options.corrections ? " corrections=" + options.corrections->sha256() : "");
+         (options.corrections ? " corrections=" + options.corrections->sha256() : "") +
+         (options.neighbours ? " neighbours=" + options.neighbours->sha256() : "");
 }
 
 namespace {
@@ -81,9 +83,11 @@ LabelledBuilding annotate(const Building& building, const PipelineResult& result
   annotating.surfaces = result.named_surfaces;
   if (result.owners) annotating.owners = &*result.owners;
   annotating.attributes.emplace_back("oriel_config_sha256", sha256(configuration(options)));
-  return annotate(building, result.segmentation ? *result.segmentation : none,
-                  result.description.table, result.description.graph, result.surfaces,
-                  result.interpretation, rules, annotating);
+  LabelledBuilding out = annotate(building, result.segmentation ? *result.segmentation : none,
+                                  result.description.table, result.description.graph,
+                                  result.surfaces, result.interpretation, rules, annotating);
+  add_outlook(building, result, out);
+  return out;
 }
 
 }  // namespace oriel

@@ -30,6 +30,10 @@ struct LabelOptions : PipelineOptions {
   /// What people say that features are, against the rules: their verdicts are corrected, other
   /// features keep theirs. Null: nobody says anything.
   std::shared_ptr<const Corrections> corrections;
+  /// The buildings of the city, so that it is known what stands beside this one: its features and
+  /// surfaces then have the attributes `party_wall`, `exposed`, `faces_street` and `faces_yard`,
+  /// and what is written names its neighbours. Null: nothing is known. It is finished.
+  std::shared_ptr<const NeighbourSearch> neighbours{};
 };
 
 /// All that a result depends on besides input and rules, with the corrections.

@@ -15,6 +15,7 @@
 #include "oriel/interpret.h"                // IWYU pragma: export
 #include "oriel/label.h"                    // IWYU pragma: export
 #include "oriel/mesh.h"                     // IWYU pragma: export
+#include "oriel/neighbours.h"               // IWYU pragma: export
 #include "oriel/options.h"                  // IWYU pragma: export
 #include "oriel/read.h"                     // IWYU pragma: export
 #include "oriel/repair.h"                   // IWYU pragma: export

@@ -11,6 +11,7 @@
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/neighbours/neighbours.h"
 
 #include <optional>
 #include <string>
@@ -58,6 +59,8 @@ struct PipelineResult {
   /// it was not made.
   LabelledBuilding output;
   std::vector<Issue> issues;
+  /// With LabelOptions::neighbours: what stands around the building.
+  std::optional<Neighbourhood> surroundings{};
   /// Nothing was done: a run of the command that selects buildings left this one out.
   bool is_passed_over = false;
 

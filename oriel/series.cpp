@@ -201,8 +201,8 @@ class SeriesDrawer {
 
   [[nodiscard]] Invariants invariants_at(const LeveledBuilding& one, double scale) const {
     const Solid& solid = *one.result->solid;
-    Invariants invariants =
-        with_party_walls(invariants_of(profile_, rules_, scale), document_, *one.building, solid);
+    Invariants invariants = with_party_walls(invariants_of(profile_, rules_, scale), document_,
+                                             *one.building, *one.result);
     invariants.work = one.work.get();
     if (one.is_judged)
       invariants.validator =

@@ -149,6 +149,7 @@ LabelOptions RunOptions::label_options(StageObserver observer) const {
   options.measures_features = !only_labels_features;
   options.has_output = false;
   options.corrections = corrections;
+  options.neighbours = neighbours;
   return options;
 }
 

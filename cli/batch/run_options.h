@@ -103,6 +103,10 @@ struct RunOptions {
   bool only_labels_features = false;
   /// What people say against the rules (--corrections); null: nothing.
   std::shared_ptr<const Corrections> corrections;
+  /// --neighbours, as often as it was given: a file to look at, or kInputsOnly.
+  std::vector<std::string> neighbours_of;
+  /// What was found there; null: nothing was asked for.
+  std::shared_ptr<const NeighbourSearch> neighbours;
 
   [[nodiscard]] ReadOptions read_options() const;
   /// The same for one of the inputs: stdin is a CityJSONSeq unless --from says more.

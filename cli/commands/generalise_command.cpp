@@ -1,6 +1,7 @@
 #include "cli/batch/batch_command.h"
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/input_files.h"
+#include "cli/batch/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/change_report.h"
@@ -308,6 +309,7 @@ ExitCode work(GeneraliseArguments& arguments) {
                           report);
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
+  find_neighbours(arguments, report);
   if (const auto code = make_series(arguments, *rules, report)) return *code;
   const auto targets = targets_of(arguments.target, *rules, report);
   if (!targets) return ExitCode::rules;

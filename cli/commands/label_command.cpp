@@ -1,6 +1,7 @@
 #include "cli/batch/batch_command.h"
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/input_files.h"
+#include "cli/batch/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/label_outputs.h"
@@ -194,6 +195,7 @@ ExitCode work(LabelArguments& arguments) {
   arguments.gives_only_features = arguments.out.empty();
   ExitCode code = ExitCode::clean;
   arguments.corrections = load_corrections(arguments.corrections_file, *rules, report, code);
+  find_neighbours(arguments, report);
   BatchRunner runner(arguments, &*rules, report);
   Labeller command(arguments, *rules, runner);
   code = graver(code, runner.run(command));

@@ -87,6 +87,9 @@ void add_records_output(CLI::App& command, const std::string& option, std::strin
 /// Adds `--safe-cells`, for commands that write CSV.
 void add_safe_cells_argument(CLI::App& command, bool& is_safe);
 
+/// Adds `--neighbours[=FILE]`.
+void add_neighbours_argument(CLI::App& command, RunOptions& arguments);
+
 /// Adds `--corrections FILE`.
 void add_corrections_argument(CLI::App& command, std::string& file);
 

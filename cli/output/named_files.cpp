@@ -1,5 +1,6 @@
 #include "cli/output/named_files.h"
 
+#include "cli/batch/neighbours.h"
 #include "cli/batch/run_options.h"
 #include "cli/commands/options.h"
 #include "kernel/io/files/partial_files.h"
@@ -62,6 +63,7 @@ void NamedFiles::add(const RunOptions& options) {
   offers_force_ = options.offers_force;
   is_forced_ = options.is_forced;
   for (const std::string& input : options.inputs) add_input("input", input);
+  for (const std::string& file : files_of_neighbours(options)) add_input("--neighbours", file);
   add_output("--timings", options.timings_file);
   if (options.status_stem.empty()) return;
   for (const char* ending : {".status.json", ".quarantine.jsonl", ".journal"})

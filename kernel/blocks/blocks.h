@@ -27,6 +27,9 @@ struct BlockOptions {
   /// True if no other building stands over the box of the plan: the footprint may come to cover
   /// more of it than it did. Null: nobody knows, and it only ever covers less.
   std::function<bool(const Box& gained)> may_cover{};
+  /// True if another building stands against an edge of the plan: it stays as it is, so that no gap
+  /// opens between the two. Null: none does.
+  std::function<bool(Vec3 from, Vec3 to)> is_shared{};
   /// So much of a block's area, seen from above, has its roof below the block's top. 0.7 as in
   /// 3DBAG's `h_dak_70p`.
   double height_share = 0.7;

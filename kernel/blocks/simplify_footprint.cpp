@@ -108,7 +108,8 @@ std::optional<SimplerFootprint> simplify_footprint(const Solid& solid, const Blo
                                                    const Tolerances& tolerances) {
   std::vector<UprightBlock> blocks = blocks_of(solid);
   SimplerFootprint out;
-  out.short_edges = simplify(blocks, {options.least_edge_m, tolerances.weld_m, options.may_cover});
+  out.short_edges = simplify(
+      blocks, {options.least_edge_m, tolerances.weld_m, options.may_cover, options.is_shared});
   BlockFaces faces;
   for (const UprightBlock& block : blocks) faces.add(block);
   auto made = solidify(faces.building, tolerances, {Closing::planar});

@@ -185,6 +185,8 @@ class OutlineSimplifier {
     const Vec3 from = corner(o, i, put.first - 1), to = corner(o, i, put.first + put.count);
     if (dot(put.point - from, put.comes_along) < 0 || dot(to - put.point, put.goes_along) < 0)
       return std::nullopt;
+    for (int k = put.first - 1; limits_.is_fixed && k < put.first + put.count; ++k)
+      if (limits_.is_fixed(corner(o, i, k), corner(o, i, k + 1))) return std::nullopt;
     OutlineChange change;
     change.changed.grow(put.point);
     for (int k = -1; k <= put.count; ++k) change.changed.grow(corner(o, i, put.first + k));

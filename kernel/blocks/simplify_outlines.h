@@ -18,6 +18,8 @@ struct OutlineLimits {
   /// did, within the box around all of them, so that two neighbours never take the same ground.
   /// Null: they only ever cover less.
   std::function<bool(const Box& gained)> may_cover;
+  /// True if an edge stays as it is, with its ends. Null: none must.
+  std::function<bool(Vec3 from, Vec3 to)> is_fixed{};
 };
 
 /// Takes short edges off the outlines, z = 0, of one or more areas with their interior to the left,

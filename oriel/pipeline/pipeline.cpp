@@ -9,6 +9,7 @@
 #include "kernel/solidify/solidify.h"
 #include "kernel/solidify/supposed_solid.h"
 #include "oriel/corrections.h"
+#include "oriel/pipeline/outlook.h"
 
 #include <algorithm>
 #include <exception>
@@ -244,6 +245,7 @@ void find_features(const Building& building, const RuleBase* rules, const Tolera
       [&] { return describe(building, segmentation, describe_options(rules, options)); },
       [](const Description& found) { return fmt::format("features={}", found.table.rows()); });
   append(out.issues, out.description.issues);
+  describe_outlook_of_features(segmentation, options, out);
   if (rules != nullptr) name_features(building, *rules, segmentation, options, out);
   out.segmentation = std::move(segmentation);
 }
@@ -259,9 +261,9 @@ void drop_features(const Building& building, const std::exception& fault, Pipeli
 void find_surfaces(const Building& building, const RuleBase& rules, const LabelOptions& options,
                    PipelineResult& out) {
   if (options.measures_surfaces)
-    describe_all_surfaces(building, out.tolerances, options.observer, out);
+    describe_all_surfaces(building, out.tolerances, options, out);
   else
-    name_surfaces(building, out.tolerances, rules, options.observer, out);
+    name_surfaces(building, out.tolerances, rules, options, out);
 }
 
 }  // namespace
@@ -306,6 +308,7 @@ PipelineResult run_to_solid(const Building& building, const Tolerances& toleranc
 PipelineResult run_from_solid(PipelineResult out, const Building& building, const RuleBase* rules,
                               const Tolerances& tolerances, const LabelOptions& options) {
   const auto is_ours = [](const Issue& issue) { return issue.code == Code::E901; };
+  look_around(building, options, out);
   if (std::ranges::none_of(out.issues, is_ours)) {
     try {
       if (options.ignores_semantics)

@@ -60,11 +60,11 @@ PipelineResult name_segmented(const Building& building, PipelineResult segmented
 
 /// Fills result.surfaces, whether the building came to the end or not. A fault of ours is E901.
 void describe_all_surfaces(const Building& building, const Tolerances& tolerances,
-                           const StageObserver& observer, PipelineResult& result);
+                           const LabelOptions& options, PipelineResult& result);
 
 /// Fills result.surfaces as far as its surfaces cannot be named without, and names them.
 void name_surfaces(const Building& building, const Tolerances& tolerances, const RuleBase& rules,
-                   const StageObserver& observer, PipelineResult& result);
+                   const LabelOptions& options, PipelineResult& result);
 
 /// E901.
 Issue own_fault(const Building& building, const std::exception& fault);

@@ -1,13 +1,16 @@
 #include "interpret/surfaces/surfaces.h"
 
 #include "kernel/describe/surfaces.h"
+#include "oriel/pipeline/outlook.h"
 #include "oriel/pipeline/pipeline.h"
 
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <numeric>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -61,24 +64,29 @@ void measured_describe(const Building& building, const StageObserver& observer,
 }  // namespace
 
 void describe_all_surfaces(const Building& building, const Tolerances& tolerances,
-                           const StageObserver& observer, PipelineResult& result) {
-  measured_describe(building, observer, result, "described surfaces", [&] {
-    result.surfaces = describe_surfaces(building, tolerances, context_of(result));
+                           const LabelOptions& options, PipelineResult& result) {
+  measured_describe(building, options.observer, result, "described surfaces", [&] {
+    SurfaceTable table = describe_surfaces(building, tolerances, context_of(result));
+    std::vector<int> rows(table.rows());
+    std::iota(rows.begin(), rows.end(), 0);
+    describe_outlook_of_surfaces(building, rows, options, result, table);
+    result.surfaces = std::move(table);
     return result.surfaces.rows();
   });
 }
 
 void name_surfaces(const Building& building, const Tolerances& tolerances, const RuleBase& rules,
-                   const StageObserver& observer, PipelineResult& result) {
+                   const LabelOptions& options, PipelineResult& result) {
   static const Segmentation none;
   const Segmentation& segmentation = result.segmentation ? *result.segmentation : none;
-  measured_describe(building, observer, result, "named surfaces", [&] {
+  measured_describe(building, options.observer, result, "named surfaces", [&] {
     const PolygonOwners& owners = result.owners.emplace(polygon_owners(segmentation, building));
     const auto rows = rows_to_name(building, owners, result.interpretation, rules);
     SurfaceContext context = context_of(result);
     context.owners = &owners;
     SurfaceSurvey survey(building, tolerances, context, rows);
     SurfaceTable& table = survey.table();
+    describe_outlook_of_surfaces(building, rows, options, result, table);
     table = with_parts(std::move(table), building, owners, result.interpretation, rules, rows);
     MeasuredWhenAsked more(survey);
     result.named_surfaces = interpret_surfaces(rules, table, rows, more);

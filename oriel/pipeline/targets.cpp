@@ -1,6 +1,7 @@
 #include "oriel/pipeline/targets.h"
 
 #include "kernel/base/index.h"
+#include "kernel/model/tolerances.h"
 
 #include <algorithm>
 #include <optional>
@@ -27,13 +28,22 @@ Invariants invariants_of(const Profile* profile, const RuleBase& rules,
 }
 
 Invariants with_party_walls(Invariants invariants, const Document& document,
-                            const Building& building, const Solid& solid) {
-  if (invariants.limits.party_walls_pct)
-    invariants.party_walls = party_walls(building, solid, document.buildings);
+                            const Building& building, const PipelineResult& result) {
+  if (result.surroundings) {
+    // A chimney flush with the wall may go; the wall itself may not move.
+    constexpr double kPartyWalls_pct = 1;
+    if (!invariants.limits.party_walls_pct) invariants.limits.party_walls_pct = kPartyWalls_pct;
+    for (const NeighbourWall& wall : result.surroundings->walls)
+      invariants.party_walls.push_back({wall.outlines, wall.normal});
+  } else if (invariants.limits.party_walls_pct) {
+    invariants.party_walls = party_walls(building, *result.solid, document.buildings);
+  }
   return invariants;
 }
 
 namespace {
+
+using detail::Outline;
 
 Box box_around(const Building& building) {
   Box box;
@@ -52,6 +62,28 @@ std::vector<Box> boxes_of_others(const Document& document, const Building& build
   return boxes;
 }
 
+/// Both ends lie on a wall of another building, seen from above, and so does the middle.
+bool is_along(const NeighbourWall& wall, Vec3 from, Vec3 to) {
+  Vec3 a, b;
+  double most_m = -1;
+  const Outline& outline = wall.outlines[0];
+  for (const Vec3 p : outline)
+    for (const Vec3 q : outline) {
+      const Vec3 level{q.x - p.x, q.y - p.y, 0};
+      if (length(level) <= most_m) continue;
+      most_m = length(level);
+      a = {p.x, p.y, 0};
+      b = {q.x, q.y, 0};
+    }
+  if (!(most_m > 0)) return false;
+  const Vec3 along = normalised(b - a);
+  const auto across_m = [&](Vec3 p) { return length(cross(Vec3{p.x, p.y, 0} - a, along)); };
+  if (across_m(from) > kContact_m || across_m(to) > kContact_m) return false;
+  const auto at_m = [&](Vec3 p) { return dot(Vec3{p.x, p.y, 0} - a, along); };
+  const auto [low_m, high_m] = std::minmax(at_m(from), at_m(to));
+  return std::min(high_m, most_m) - std::max(low_m, 0.0) > kContact_m;
+}
+
 }  // namespace
 
 std::function<bool(const Box& local_m)> free_ground(const Document& document,
@@ -66,6 +98,21 @@ std::function<bool(const Box& local_m)> free_ground(const Document& document,
                  asked.min.y <= box.max.y;
         });
       };
+}
+
+PlanLimits plan_limits(const Document& document, const Building& building,
+                       const PipelineResult& result, const NeighbourSearch* neighbours) {
+  if (neighbours == nullptr || !result.surroundings) return {free_ground(document, building), {}};
+  const Neighbourhood& around = *result.surroundings;
+  PlanLimits limits;
+  limits.may_cover = [neighbours, &around](const Box& asked) {
+    return !neighbours->is_built_on(around, asked);
+  };
+  limits.is_shared = [&around](Vec3 from, Vec3 to) {
+    return std::ranges::any_of(around.walls,
+                               [&](const NeighbourWall& wall) { return is_along(wall, from, to); });
+  };
+  return limits;
 }
 
 }  // namespace oriel

@@ -180,4 +180,15 @@ TEST_SUITE("kernel/blocks") {
       CHECK(area_m2(turned.outline) == doctest::Approx(area_m2(straight.outline)));
     }
   }
+
+  TEST_CASE("an edge against which a neighbour stands stays as it is") {
+    // A step of half a metre in the south side; a neighbour stands to the south of its left part.
+    const Outline step{{0, 0, 0}, {6, 0, 0}, {6, 0.5, 0}, {20, 0.5, 0}, {20, 12, 0}, {0, 12, 0}};
+    std::vector<Outline> free{step}, bound{step};
+    OutlineLimits limits{1, kReach_m, {}};
+    CHECK(simplify_outlines(free, limits) == 0);
+    limits.is_fixed = [](Vec3 p, Vec3 q) { return p.y == 0 && q.y == 0; };
+    CHECK(simplify_outlines(bound, limits) == 1);
+    CHECK(bound[0].size() == step.size());
+  }
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "cli/batch/run_options.h"
+#include "cli/terminal/logging.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// What --neighbours without a file is read as.
+inline constexpr const char* kInputsOnly = "true";
+
+/// The files that --neighbours names besides the inputs; a folder stands for its files.
+std::vector<std::string> files_of_neighbours(const RunOptions& options);
+
+/// With --neighbours: reads all inputs and the files that it names, keeps of each building what
+/// others must know of it, and fills options.neighbours. The inputs are settled. What is wrong with
+/// an input is left to the run itself; a named file that cannot be read is an InputError. Throws
+/// CLI::ValidationError if stdin is the only source: it can be read once only.
+void find_neighbours(RunOptions& options, Report& report);
+
+}  // namespace oriel::cli

@@ -1,0 +1,165 @@
+#include "examples/generator/command.h"
+#include "tests/cli/command.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+struct Place {
+  std::string id;
+  double x = 0, y = 0;
+  double width = 10, depth = 10, height = 6;
+};
+
+/// A CityJSON file of boxes, in millimetres.
+json boxes(const std::vector<Place>& places) {
+  json city = {{"type", "CityJSON"},
+               {"version", "2.0"},
+               {"transform", {{"scale", {0.001, 0.001, 0.001}}, {"translate", {0, 0, 0}}}},
+               {"CityObjects", json::object()},
+               {"vertices", json::array()}};
+  for (const Place& p : places) {
+    const auto first = static_cast<int>(city["vertices"].size());
+    for (const double z : {0.0, p.height})
+      for (const auto& [x, y] :
+           std::vector<std::pair<double, double>>{{p.x, p.y},
+                                                  {p.x + p.width, p.y},
+                                                  {p.x + p.width, p.y + p.depth},
+                                                  {p.x, p.y + p.depth}})
+        city["vertices"].push_back({static_cast<int>(1000 * x + (x < 0 ? -0.5 : 0.5)),
+                                    static_cast<int>(1000 * y + (y < 0 ? -0.5 : 0.5)),
+                                    static_cast<int>(1000 * z)});
+    json shell = json::array();
+    for (const std::array<int, 4>& ring : {std::array{3, 2, 1, 0},
+                                           {4, 5, 6, 7},
+                                           {0, 1, 5, 4},
+                                           {1, 2, 6, 5},
+                                           {2, 3, 7, 6},
+                                           {3, 0, 4, 7}}) {
+      json points = json::array();
+      for (const int v : ring) points.push_back(first + v);
+      shell.push_back(json::array({points}));
+    }
+    city["CityObjects"][p.id] = {
+        {"type", "Building"},
+        {"geometry", {{{"type", "Solid"}, {"lod", "2"}, {"boundaries", json::array({shell})}}}}};
+  }
+  return city;
+}
+
+std::set<std::string> ids_in(const json& city) {
+  std::set<std::string> ids;
+  for (const auto& [id, object] : city["CityObjects"].items()) ids.insert(id);
+  return ids;
+}
+
+json output_of(const Folder& folder) { return json::parse(bytes_of(folder / "out.city.json")); }
+
+std::string town(const Folder& folder, int houses) {
+  const std::string path = folder / "town.city.jsonl", count = std::to_string(houses);
+  const std::array call{"oriel-generate", "--style", "city",     "--count",   count.c_str(),
+                        "--seed",         "3",       "--output", path.c_str()};
+  std::ostringstream out, err;
+  REQUIRE(oriel::generator::run_command(static_cast<int>(call.size()), call.data(), out, err) == 0);
+  return path;
+}
+
+/// The lines after the header, sorted.
+std::vector<std::string> sorted_lines(const std::string& path) {
+  std::vector<std::string> lines = lines_of(bytes_of(path));
+  if (!lines.empty()) lines.erase(lines.begin());
+  std::ranges::sort(lines);
+  return lines;
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("buildings name their neighbours and walls say what lies before them") {
+    const Folder folder;
+    const std::string city =
+        folder.write("in.city.json", boxes({{"a"}, {"b", 10}, {"c", 30}}).dump());
+    REQUIRE(run({"label", city, "--neighbours", "-o", folder / "out.city.json"}).exit <= 3);
+    const json out = output_of(folder);
+    CHECK(out["CityObjects"]["a"]["attributes"]["oriel_neighbours"] == "b");
+    CHECK(out["CityObjects"]["a"]["attributes"]["oriel_party_walls_m2"] == 60);
+    CHECK(out["CityObjects"]["c"]["attributes"]["oriel_neighbours"] == "");
+    std::map<std::string, int> faces;
+    for (const json& surface : out["CityObjects"]["a"]["geometry"][0]["semantics"]["surfaces"])
+      if (surface["type"] == "WallSurface")
+        ++faces[surface["oriel_party_wall"] ? "party" : surface.value("oriel_faces", "nothing")];
+    CHECK(faces == std::map<std::string, int>{{"party", 1}, {"street", 3}});
+    const Outcome plain = run({"label", city, "-o", "-"});
+    CHECK(plain.out.find("oriel_neighbours") == std::string::npos);
+    CHECK(plain.out.find("oriel_party_wall") == std::string::npos);
+  }
+
+  TEST_CASE("neighbours are found whatever the shards and threads and orders") {
+    const Folder folder;
+    const std::string whole = town(folder, 20);
+    const std::vector<std::string> lines = lines_of(bytes_of(whole));
+    std::string one = lines[0] + "\n", other = one;
+    for (std::size_t i = lines.size() - 1; i > 0; --i)
+      (i % 3 == 0 ? one : other) += lines[i] + "\n";
+    const std::vector<std::string> shards{folder.write("one.city.jsonl", one),
+                                          folder.write("other.city.jsonl", other)};
+    for (const std::vector<std::string>& call :
+         {std::vector<std::string>{"label"},
+          std::vector<std::string>{"generalise", "--scale", "1:10000"}}) {
+      const auto made = [&](const std::string& from, const std::vector<std::string>& more) {
+        std::vector<std::string> all = call;
+        const std::string to = replaced(from, ".city.jsonl", ".out.city.jsonl");
+        all.insert(all.end(), {from, "-o", to});
+        all.insert(all.end(), more.begin(), more.end());
+        CHECK(run(all).exit == 0);
+        return sorted_lines(to);
+      };
+      const auto at_once = made(whole, {"--neighbours"});
+      CHECK(at_once == made(whole, {"--neighbours", "-j", "3"}));
+      auto in_shards = made(shards[0], {"--neighbours=" + whole});
+      std::ranges::copy(made(shards[1], {"--neighbours=" + whole, "-j", "2"}),
+                        std::back_inserter(in_shards));
+      std::ranges::sort(in_shards);
+      CHECK(at_once == in_shards);
+    }
+  }
+
+  TEST_CASE("a stream from stdin needs a file that has its neighbours") {
+    const Folder folder;
+    const std::string whole = town(folder, 4);
+    const oriel::test::Surroundings piped{.in = bytes_of(whole)};
+    const Outcome refused = run({"label", "-", "--neighbours"}, piped);
+    CHECK(refused.exit == 2);
+    CHECK(refused.says("--neighbours=FILE"));
+    const Outcome made = run({"label", "-", "--neighbours=" + whole}, piped);
+    CHECK(made.exit == 0);
+    CHECK(made.out.find("\"oriel_neighbours\":\"house-000001;house-000003\"") != std::string::npos);
+    CHECK(run({"label", whole, "--neighbours=" + (folder / "none.city.jsonl"), "-o",
+               folder / "o.city.jsonl"})
+              .says("E101"));
+    CHECK(folder.names() == std::vector<std::string>{"town.city.jsonl"});
+  }
+
+  TEST_CASE("neighbours that overlap are told and nothing is lost") {
+    const Folder folder;
+    const std::string city =
+        folder.write("in.city.json", boxes({{"a"}, {"b", 9}, {"in", 2, 2, 3, 3, 3}}).dump());
+    const Outcome made = run({"label", city, "--neighbours", "-v", "-o", folder / "out.city.json"});
+    CHECK(made.says("E175 overlaps 'b'"));
+    CHECK(made.says("in: E176 stands in 'a'"));
+    CHECK(ids_in(output_of(folder)).size() == 3);
+  }
+}
