@@ -438,9 +438,34 @@ std::string Targets::text() const {
 
 Targets at_scale(double denominator) { return {denominator, {}}; }
 
+namespace {
+
+/// Nothing for a building that is in no group.
+std::optional<GeneralisedBuilding> as_part_of_group(const Building& building,
+                                                    const PipelineResult& result,
+                                                    const RuleBase& rules,
+                                                    const GeneraliseOptions& options) {
+  const CityGroups& groups = *options.groups;
+  const auto place = groups.place_of(*result.surroundings);
+  if (!place) return std::nullopt;
+  GeneralisedBuilding out;
+  out.building = building.id;
+  out.issues = groups.issues_of(*result.surroundings);
+  out.leads_group = place->leads;
+  out.is_gone = !place->leads;
+  if (place->leads)
+    out.levels.push_back(drawn_group(annotate(building, result, rules, options),
+                                     groups.solid(place->group), groups.members(place->group)));
+  return out;
+}
+
+}  // namespace
+
 GeneralisedBuilding generalise(const Document& document, const Building& building,
                                const PipelineResult& result, const RuleBase& rules,
                                const Targets& targets, const GeneraliseOptions& options) {
+  if (options.groups && result.surroundings)
+    if (auto grouped = as_part_of_group(building, result, rules, options)) return *grouped;
   if (!building.installations.empty()) {
     const Building alone = without_installations(building);
     return generalise(document, alone, label(alone, rules, options), rules, targets, options);
@@ -456,6 +481,10 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
         GeneralisedBuilding made = result.is_open ? open_drawing(drawer, result, options.observer)
                                                   : valid_drawing(drawer, result, options.observer);
         if (has_errors(made.issues)) made.levels.clear();
+        if (options.groups && result.surroundings) {
+          const auto more = options.groups->issues_of(*result.surroundings);
+          made.issues.insert(made.issues.end(), more.begin(), more.end());
+        }
         return made;
       },
       [](const GeneralisedBuilding& made) {
@@ -465,6 +494,8 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
 }
 
 void add(GeneralisedBuilding building, OutputRecord& output) {
+  if (building.is_gone) output.options.gone.push_back(building.building);
+  if (building.leads_group) output.options.bared.push_back(building.building);
   for (std::size_t i = 0; i < building.levels.size(); ++i) {
     Redrawn& level = building.levels[i];
     for (const std::string& id : level.removed_ids)

@@ -5,12 +5,14 @@
 #include "interpret/plan/profile.h"
 #include "kernel/base/issue.h"
 #include "kernel/io/document.h"
+#include "oriel/groups.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
 #include "oriel/write.h"
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +45,8 @@ struct GeneraliseOptions : LabelOptions {
   /// while it is repaired. What it throws, if it is no std::exception, ends generalise() and comes
   /// out of it. Results do not depend on it.
   std::function<void(Stage)> checkpoint{};
+  /// With `neighbours`: rows and blocks of the city, which become one building each. Null: none do.
+  std::shared_ptr<const CityGroups> groups{};
 };
 
 /// Figures of a building before and after.
@@ -75,6 +79,9 @@ struct GeneralisedBuilding {
   /// What it was drawn from, if it was open (G420) or its own solid could not be written as a valid
   /// one (G417).
   std::optional<PipelineResult> repaired;
+  /// It is one of a group that became one building (GeneraliseOptions::groups): it leads it, and
+  /// its one level is the group's block, or it is gone from the file.
+  bool leads_group = false, is_gone = false;
 };
 
 /// Generalises a building for each of the targets: a closed solid with what the target can show
@@ -84,6 +91,10 @@ struct GeneralisedBuilding {
 /// options. Of a building that did not come to its features nothing is made; an open one is
 /// repaired first as repair() does it (G420). Installations that were joined to it (ReadOptions)
 /// stay as they are: the building alone is labelled again and redrawn.
+///
+/// A building that is one of a group is not drawn: the one that leads it gets the group's block,
+/// the others leave, whatever became of them in `result`; notes G421 to G423 and a warning G422 say
+/// so.
 ///
 /// The solids are valid as they are written: where one is not, the building is drawn again with
 /// each step checked, then from a repaired solid (G417), then without outlines of imprints that are

@@ -1,3 +1,4 @@
+#include "cli/batch/arena.h"
 #include "cli/batch/batch_command.h"
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/input_files.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,7 +84,7 @@ void check_level(const std::string& option, const std::vector<Issue>& issues) {
 /// What --scale or else --to-lod asks for, with --profile; with neither of them the level of the
 /// profile. Nothing if a profile cannot be used, which is reported.
 std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBase& rules,
-                                  Report& report) {
+                                  bool has_neighbours, Report& report) {
   Targets targets;
   if (arguments.has_scale) targets.scale = denominator_of(arguments.scale, "--scale");
   const std::vector<std::string> names = profile_names(arguments);
@@ -94,14 +96,25 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
     check_level(option, loaded.issues);
     report.add(loaded.issues);
     if (!loaded.value) return std::nullopt;
-    report.add(
-        check_profile(*loaded.value, rules, targets.scale ? ProfileUse::scale : ProfileUse::level));
+    report.add(check_profile(*loaded.value, rules,
+                             targets.scale ? ProfileUse::scale : ProfileUse::level,
+                             has_neighbours));
     if (arguments.edge_min_m > 0)
       loaded.value = with_edge_min(std::move(*loaded.value), arguments.edge_min_m);
     if (targets.has_lods()) check_lod(option, loaded.value->level);
     targets.profiles.push_back(std::move(*loaded.value));
   }
   return targets;
+}
+
+/// Rows and blocks, if the profile asks for them at the scale.
+std::shared_ptr<const CityGroups> groups_of(const GeneraliseArguments& arguments,
+                                            const Targets& targets) {
+  if (!arguments.neighbours || !targets.scale || targets.profiles.empty() ||
+      !asks_for_groups(targets.profiles[0], *targets.scale))
+    return nullptr;
+  return std::make_shared<CityGroups>(*arguments.neighbours, targets.profiles[0], *targets.scale,
+                                      shares_in_arena(arguments.jobs));
 }
 
 /// What the counts of features begin with, before the label.
@@ -117,7 +130,12 @@ class Generaliser final : public ProducingCommand {
         rules_(rules),
         runner_(runner),
         outputs_(arguments, rules),
-        changes_(arguments.explain, arguments.metrics) {}
+        changes_(arguments.explain, arguments.metrics),
+        groups_(groups_of(arguments, targets)) {
+    if (groups_ && outputs_.gathers_any())
+      throw CLI::ValidationError(
+          "-o", "buildings that become one can be written as CityJSON, CityJSONSeq and CityGML");
+  }
 
   void name_files(NamedFiles& files) const override {
     outputs_.name_files(files);
@@ -182,6 +200,11 @@ class Generaliser final : public ProducingCommand {
       if (stays_open(lines[i], drawn[i])) report(drawn[i], product);
     }
     for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (drawn[i].is_gone || drawn[i].leads_group) {
+        report(drawn[i], product);
+        add(std::move(drawn[i]), output);
+        continue;
+      }
       if (!lines[i].is_done() || stays_open(lines[i], drawn[i])) continue;
       now_at_building(i);
       const PipelineResult& line = drawn[i].repaired ? *drawn[i].repaired : lines[i];
@@ -199,7 +222,7 @@ class Generaliser final : public ProducingCommand {
 
   /// Nothing was drawn of it.
   static bool stays_open(const PipelineResult& line, const GeneralisedBuilding& drawn) {
-    return line.is_open && !drawn.repaired;
+    return line.is_open && !drawn.repaired && !drawn.leads_group && !drawn.is_gone;
   }
 
   [[nodiscard]] GeneraliseOptions options_of(Timings& timings) const {
@@ -207,6 +230,7 @@ class Generaliser final : public ProducingCommand {
     static_cast<LabelOptions&>(options) = arguments_.label_options(timings.observer());
     options.reports_changes = !arguments_.explain.empty();
     options.reports_figures = changes_.has_metrics();
+    options.groups = groups_;
     return options;
   }
 
@@ -247,6 +271,7 @@ class Generaliser final : public ProducingCommand {
   BatchRunner& runner_;
   LabelOutputs outputs_;
   ChangeReport changes_;
+  std::shared_ptr<const CityGroups> groups_;
   /// Features that are gone and those that stay, by label.
   std::map<std::string, int> counts_;
 };
@@ -265,7 +290,9 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
   check_level("--profile", profile.issues);
   report.add(profile.issues);
   if (!profile.value) return ExitCode::rules;
-  report.add(check_profile(*profile.value, rules, ProfileUse::scale));
+  const auto unfit = check_profile(*profile.value, rules, ProfileUse::series);
+  report.add(unfit);
+  if (has_errors(unfit)) return ExitCode::rules;
   return write_series(arguments, scales, profile.value, rules, report);
 }
 
@@ -311,7 +338,8 @@ ExitCode work(GeneraliseArguments& arguments) {
   if (!rules) return ExitCode::rules;
   find_neighbours(arguments, report);
   if (const auto code = make_series(arguments, *rules, report)) return *code;
-  const auto targets = targets_of(arguments.target, *rules, report);
+  const auto targets =
+      targets_of(arguments.target, *rules, arguments.neighbours != nullptr, report);
   if (!targets) return ExitCode::rules;
   if (std::ranges::any_of(targets->profiles, &Profile::names_classes))
     arguments.stl_solids = StlSolids::by_class;

@@ -51,7 +51,9 @@ ExitCode work(TilesCall& call) {
     auto profile = load_profile_file(call.profile_name);
     report.add(profile.issues);
     if (!profile.value) return ExitCode::rules;
-    report.add(check_profile(*profile.value, *rules, ProfileUse::scale));
+    const auto unfit = check_profile(*profile.value, *rules, ProfileUse::series);
+    report.add(unfit);
+    if (has_errors(unfit)) return ExitCode::rules;
     call.profile = std::move(profile.value);
   }
   return write_tiles(call, *rules, report);

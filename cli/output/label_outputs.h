@@ -50,6 +50,9 @@ class LabelOutputs {
   [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
 
+  /// OutputSink::gathers_any().
+  [[nodiscard]] bool gathers_any() const { return sink_ && sink_->gathers_any(); }
+
   /// Adds the outputs, and the rules as an input.
   void name_files(NamedFiles& files) const;
 

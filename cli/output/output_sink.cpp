@@ -145,6 +145,12 @@ bool OutputSink::has_attributes() const {
   return false;
 }
 
+bool OutputSink::gathers_any() const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    if (is_gathering(i)) return true;
+  return has_attributes();
+}
+
 bool OutputSink::names_features() const {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     const Format to = format_of_output(i);

@@ -27,6 +27,9 @@ class OutputSink {
   [[nodiscard]] bool is_stdout() const { return out_ == "-"; }
   /// A file has the attributes of features: OutputRecord::features is written.
   [[nodiscard]] bool has_attributes() const;
+  /// Some output is a mesh or a GeoPackage, for which the buildings of a record are gathered, those
+  /// that leave it too.
+  [[nodiscard]] bool gathers_any() const;
   /// A file says which feature its faces belong to.
   [[nodiscard]] bool names_features() const;
 

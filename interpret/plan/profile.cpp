@@ -68,7 +68,7 @@ class ProfileReader {
     YamlSection section(node, "a level",
                         {"form", "least-piece-m2", "footprint-edge-m", "omit", "keep", "imprints",
                          "on-ground", "sizes-m", "area-m2", "map-mm", "verdicts", "parts",
-                         "invariants", "edge-min-m", "edge-owner-b-m", "stl-solids"},
+                         "invariants", "edge-min-m", "edge-owner-b-m", "stl-solids", "buildings"},
                         findings_);
     if (!section.is_map()) return;
     if (const YamlNode* form = section.require("form")) read_form(*form);
@@ -87,8 +87,26 @@ class ProfileReader {
     profile_.names_classes = word(section.find("stl-solids"), "label", "class");
     read_sizes(section, node);
     if (const YamlNode* parts = section.find("parts")) read_parts(*parts);
+    if (const YamlNode* buildings = section.find("buildings")) read_groups(*buildings);
     if (const YamlNode* invariants = section.find("invariants"))
       profile_.limits = rules::read_limits(*invariants, findings_);
+  }
+
+  void read_groups(const YamlNode& node) {
+    YamlSection section(node, "'buildings'", {"aggregate", "gap-mm", "like-height-m", "from-scale"},
+                        findings_);
+    if (!section.is_map()) return;
+    if (const YamlNode* aggregate = section.require("aggregate");
+        aggregate != nullptr && aggregate->text != "touching")
+      findings_.error(Code::R211, aggregate->span,
+                      "'aggregate' is touching, not '" + aggregate->text + "'");
+    Profile::Groups& groups = profile_.groups.emplace();
+    if (const YamlNode* gap = section.find("gap-mm"))
+      groups.gap_mm = positive(*gap, "'gap-mm'").value_or(0);
+    if (const YamlNode* height = section.find("like-height-m"))
+      groups.like_height_m = positive(*height, "'like-height-m'").value_or(groups.like_height_m);
+    if (const YamlNode* scale = section.find("from-scale"))
+      groups.from_scale = positive(*scale, "'from-scale'").value_or(groups.from_scale);
   }
 
   void read_form(const YamlNode& node) {
@@ -288,7 +306,8 @@ Issue profile_warning(const Profile& profile, Code code, std::string sentence) {
 
 }  // namespace
 
-std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, ProfileUse use) {
+std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, ProfileUse use,
+                                 bool has_neighbours) {
   std::vector<Issue> issues;
   const auto has_class = [&](const std::string& name) {
     const auto& classes = base.pack().classes;
@@ -301,12 +320,26 @@ std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, P
             profile, Code::R273,
             fmt::format("the profile {} names the class '{}', which the pack {} does not have",
                         profile.title(), name, base.name())));
-  if (use == ProfileUse::scale && profile.form != Profile::Form::as_is)
+  if (use != ProfileUse::level && profile.form != Profile::Form::as_is)
     issues.push_back(profile_warning(
         profile, Code::R276,
         fmt::format("the profile {} makes blocks, which are a level of detail: at a scale the "
                     "building keeps its form",
                     profile.title())));
+  if (profile.groups && use == ProfileUse::series) {
+    issues.push_back(profile_warning(
+        profile, Code::R278,
+        fmt::format("the profile {} makes one of buildings that adjoin, which a series cannot take "
+                    "back; make each level by itself with --scale",
+                    profile.title())));
+    issues.back().severity = Severity::error;
+  } else if (profile.groups && (use == ProfileUse::level || !has_neighbours)) {
+    issues.push_back(profile_warning(
+        profile, Code::R277,
+        fmt::format("the profile {} makes one of buildings that adjoin, which needs --scale and "
+                    "--neighbours: each stays by itself",
+                    profile.title())));
+  }
   return issues;
 }
 

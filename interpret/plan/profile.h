@@ -63,6 +63,14 @@ struct Profile {
   /// What an operation must not change by more than that.
   Limits limits;
 
+  /// Buildings that adjoin become one (oriel/groups.h).
+  struct Groups {
+    double gap_mm = 0;           ///< on the map; narrower gaps between them are closed
+    double like_height_m = 3;    ///< their roofs differ by no more
+    double from_scale = 10'000;  ///< at larger scales each stays by itself
+  };
+  std::optional<Groups> groups;  ///< missing: none does
+
   /// "lod:2.0".
   [[nodiscard]] std::string title() const { return name + ":" + level; }
   /// Map thresholds need a scale; others leave it aside. Nothing if there are neither.
@@ -86,12 +94,16 @@ std::vector<std::string> embedded_profiles();
 /// What a profile is used for.
 enum class ProfileUse {
   level,  ///< its own level of detail
-  scale   ///< a map at some scale, or a series of them
+  scale,  ///< a map at some scale
+  series  ///< maps at several scales, and what leads from one to the next
 };
 
 /// What of a profile has no effect, which is probably not meant: a warning R273 for each class that
-/// it names and the pack does not have, R276 if it asks for blocks at a scale.
-std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, ProfileUse use);
+/// it names and the pack does not have, R276 if it asks for blocks at a scale, R277 if it asks for
+/// groups of buildings where nobody knows what stands beside them (`has_neighbours`), or not at a
+/// scale. An error R278 if it asks for groups in a series, whose log cannot hold them.
+std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, ProfileUse use,
+                                 bool has_neighbours = false);
 
 /// Adds to `plan`, which may be empty, what the profile asks for of features without a step there:
 /// first its lists of classes, then the verdict of significance, unless it is a part of the

@@ -8,7 +8,7 @@
 /// Every code that a finding can have: X(code, the number of val3dity's error that means the same
 /// or 0, what the code means), sorted. A code never changes its meaning and is never used again.
 /// Each has a section with this title in docs/errors.md, or in docs/rules.md for rule packs; those
-/// of profiles, R272 to R276, are in docs/generalisation.md, and those of experiments, R28x, in
+/// of profiles, R272 to R278, are in docs/generalisation.md, and those of experiments, R28x, in
 /// docs/experiments.md.
 ///
 /// E1xx the text of a file, E2xx the building model, E3xx geometry, E5xx limits, E6xx output, E9xx
@@ -153,6 +153,9 @@
   X(G418, 0, "A piece would be torn off") \
   X(G419, 0, "A building that was not valid is redrawn") \
   X(G420, 0, "An open building is repaired first") \
+  X(G421, 0, "Buildings that became one") \
+  X(G422, 0, "A group that stays as it was") \
+  X(G423, 0, "Neighbours of different heights") \
   X(R200, 0, "The pack cannot be read") \
   X(R201, 0, "Not YAML") \
   X(R202, 0, "A key occurs twice") \
@@ -206,6 +209,8 @@
   X(R274, 0, "Sizes of a profile that do not form a chain") \
   X(R275, 0, "No such level of a profile") \
   X(R276, 0, "A form that a scale does not make") \
+  X(R277, 0, "Groups without neighbours") \
+  X(R278, 0, "Groups in a series") \
   X(R280, 0, "A pattern that matches no file") \
   X(R281, 0, "A value beyond the range of its param") \
   X(R282, 0, "A split with nothing on one side") \

@@ -2,9 +2,8 @@
 
 #include "kernel/base/index.h"
 #include "kernel/blocks/simplify_outlines.h"
+#include "kernel/blocks/upright_block.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/solidify/solidify.h"
 
 #include <algorithm>
 #include <map>
@@ -14,12 +13,6 @@
 namespace oriel::detail {
 
 namespace {
-
-/// A piece of the footprint and the block on it.
-struct UprightBlock {
-  std::vector<Outline> outlines;  ///< z = 0, the interior to the left
-  double ground_m = 0, top_m = 0;
-};
 
 Vec3 seen_from_above(Vec3 p) { return {p.x, p.y, 0}; }
 
@@ -48,48 +41,6 @@ std::vector<UprightBlock> blocks_of(const Solid& solid) {
   return blocks;
 }
 
-/// Adds the faces of blocks to a building, for solidify.
-class BlockFaces {
- public:
-  void add(const UprightBlock& block) {
-    std::vector<std::vector<int>> top, ground;
-    for (const Outline& outline : block.outlines) {
-      const std::vector<int> low = ring(outline, block.ground_m), high = ring(outline, block.top_m);
-      for (std::size_t i = 0; i < low.size(); ++i) {
-        const std::size_t k = (i + 1) % low.size();
-        add_polygon({{low[i], low[k], high[k], high[i]}});
-      }
-      top.push_back(high);
-      ground.push_back({low.rbegin(), low.rend()});
-    }
-    add_polygon(std::move(top));
-    add_polygon(std::move(ground));
-    ++body_;
-  }
-
-  Building building;
-
- private:
-  std::vector<int> ring(const Outline& outline, double z) {
-    std::vector<int> out;
-    for (const Vec3 p : outline) {
-      out.push_back(static_cast<int>(building.vertices.size()));
-      building.vertices.push_back({p.x, p.y, z});
-    }
-    return out;
-  }
-
-  void add_polygon(std::vector<std::vector<int>> rings) {
-    Polygon polygon;
-    polygon.rings = std::move(rings);
-    polygon.source = static_cast<int>(building.polygons.size());
-    polygon.body = body_;
-    building.polygons.push_back(std::move(polygon));
-  }
-
-  int body_ = 0;
-};
-
 /// The outlines of all blocks simplified at the same time, so that none comes to touch another.
 int simplify(std::vector<UprightBlock>& blocks, const OutlineLimits& limits) {
   std::vector<Outline> all;
@@ -110,11 +61,9 @@ std::optional<SimplerFootprint> simplify_footprint(const Solid& solid, const Blo
   SimplerFootprint out;
   out.short_edges = simplify(
       blocks, {options.least_edge_m, tolerances.weld_m, options.may_cover, options.is_shared});
-  BlockFaces faces;
-  for (const UprightBlock& block : blocks) faces.add(block);
-  auto made = solidify(faces.building, tolerances, {Closing::planar});
-  if (!made.value || !is_closed(*made.value)) return std::nullopt;
-  out.solid = std::move(*made.value);
+  auto made = solid_of(blocks, tolerances);
+  if (!made) return std::nullopt;
+  out.solid = std::move(*made);
   return out;
 }
 

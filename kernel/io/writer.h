@@ -25,6 +25,12 @@ struct WriteOptions {
   /// Ids of CityObjects to leave out, such as installations that were generalised away. They also
   /// leave the `children` and `parents` of all other objects.
   std::vector<std::string> removed;
+  /// Ids of buildings that leave with all that belongs to them, and with the building that they are
+  /// a part of where no other part of it is left (it may have an outline). Of a line of a
+  /// CityJSONSeq that has nothing else nothing is written.
+  std::vector<std::string> gone{};
+  /// Ids of buildings whose installations leave: what was there is part of a new geometry.
+  std::vector<std::string> bared{};
   /// Of CityGML: installations become solids (citygml_text); CityJSON has them as they are.
   bool closes_installations = false;
   /// The scale is finer than the document's by so many powers of ten at least (see WrittenGrid).

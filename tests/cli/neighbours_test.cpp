@@ -60,6 +60,22 @@ json boxes(const std::vector<Place>& places) {
   return city;
 }
 
+std::string town_profile(const Folder& folder, const std::string& more = "gap-mm: 0.2") {
+  return folder.write("town.yaml",
+                      "schema: oriel-profile/1\nprofile: {name: town, version: 1.0.0}\nlevels:\n"
+                      "  map:\n    form: as-is\n    map-mm: 0.3\n    verdicts: {point: omit}\n"
+                      "    buildings: {aggregate: touching, " +
+                          more + "}\n");
+}
+
+/// What is left of boxes at 1:10000 with groups.
+Outcome grouped(const Folder& folder, const std::vector<Place>& places,
+                const std::string& more = "gap-mm: 0.2") {
+  return run({"generalise", folder.write("in.city.json", boxes(places).dump()), "--neighbours",
+              "-v", "--scale", "1:10000", "--profile", town_profile(folder, more), "-o",
+              folder / "out.city.json"});
+}
+
 std::set<std::string> ids_in(const json& city) {
   std::set<std::string> ids;
   for (const auto& [id, object] : city["CityObjects"].items()) ids.insert(id);
@@ -110,6 +126,7 @@ TEST_SUITE("cli") {
   TEST_CASE("neighbours are found whatever the shards and threads and orders") {
     const Folder folder;
     const std::string whole = town(folder, 20);
+    const std::string profile = town_profile(folder);
     const std::vector<std::string> lines = lines_of(bytes_of(whole));
     std::string one = lines[0] + "\n", other = one;
     for (std::size_t i = lines.size() - 1; i > 0; --i)
@@ -118,7 +135,7 @@ TEST_SUITE("cli") {
                                           folder.write("other.city.jsonl", other)};
     for (const std::vector<std::string>& call :
          {std::vector<std::string>{"label"},
-          std::vector<std::string>{"generalise", "--scale", "1:10000"}}) {
+          std::vector<std::string>{"generalise", "--scale", "1:10000", "--profile", profile}}) {
       const auto made = [&](const std::string& from, const std::vector<std::string>& more) {
         std::vector<std::string> all = call;
         const std::string to = replaced(from, ".city.jsonl", ".out.city.jsonl");
@@ -153,6 +170,60 @@ TEST_SUITE("cli") {
     CHECK(folder.names() == std::vector<std::string>{"town.city.jsonl"});
   }
 
+  TEST_CASE("a row of houses of like height becomes one block") {
+    const Folder folder;
+    const Outcome made =
+        grouped(folder, {{"a"}, {"b", 10, 0, 8}, {"c", 18, 1, 9, 9, 7}, {"far", 50}});
+    CHECK(made.exit == 0);
+    CHECK(made.says("a: G421 became one block with 2 others"));
+    CHECK(made.says("c: G421 became part of 'a'"));
+    const json out = output_of(folder);
+    CHECK(ids_in(out) == std::set<std::string>{"a", "far"});
+    CHECK(out["CityObjects"]["a"]["attributes"]["oriel_members"] == "a;b;c");
+    CHECK(run({"validate", folder / "out.city.json"}).exit == 0);
+  }
+
+  TEST_CASE("gaps narrower than the map shows are closed") {
+    const Folder folder;
+    const std::vector<Place> pair{{"a"}, {"b", 11.9}};
+    CHECK(grouped(folder, pair).exit == 0);
+    CHECK(ids_in(output_of(folder)) == std::set<std::string>{"a"});
+    CHECK(grouped(folder, pair, "gap-mm: 0.18").exit == 0);
+    CHECK(ids_in(output_of(folder)) == std::set<std::string>{"a", "b"});
+    // A third building stands in the gap, and is too high to join.
+    CHECK(grouped(folder, {{"a"}, {"b", 11.9}, {"tower", 10.5, 2, 1, 5, 40}}).exit == 0);
+    CHECK(ids_in(output_of(folder)) == std::set<std::string>{"a", "b", "tower"});
+  }
+
+  TEST_CASE("walls that are centimetres apart leave no crack in a block") {
+    const Folder folder;
+    const Outcome made = grouped(folder, {{"a"}, {"b", 10.04}}, "like-height-m: 2");
+    CHECK(made.says("E178"));
+    const json out = output_of(folder);
+    CHECK(ids_in(out) == std::set<std::string>{"a"});
+    CHECK(out["CityObjects"]["a"]["geometry"][0]["boundaries"][0].size() == 6);
+  }
+
+  TEST_CASE("houses of different heights stay by themselves") {
+    const Folder folder;
+    const Outcome made = grouped(folder, {{"a"}, {"b", 10, 0, 10, 10, 10}});
+    CHECK(made.exit == 0);
+    CHECK(made.says("b: G423 adjoins 'a'"));
+    CHECK(ids_in(output_of(folder)) == std::set<std::string>{"a", "b"});
+  }
+
+  TEST_CASE("a group whose block would be no valid solid stays as it was") {
+    const Folder folder;
+    std::vector<Place> ring;
+    for (const auto& [x, y] :
+         std::vector<std::pair<int, int>>{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 1}})
+      ring.push_back({"h" + std::to_string(x) + std::to_string(y), 10.0 * x, 10.0 * y});
+    const Outcome made = grouped(folder, ring);
+    CHECK(made.exit == 0);
+    CHECK(made.says("G422"));
+    CHECK(ids_in(output_of(folder)).size() == ring.size());
+  }
+
   TEST_CASE("neighbours that overlap are told and nothing is lost") {
     const Folder folder;
     const std::string city =
@@ -161,5 +232,38 @@ TEST_SUITE("cli") {
     CHECK(made.says("E175 overlaps 'b'"));
     CHECK(made.says("in: E176 stands in 'a'"));
     CHECK(ids_in(output_of(folder)).size() == 3);
+  }
+
+  TEST_CASE("a part of a building that joins a group takes its building along") {
+    const Folder folder;
+    json city = boxes({{"a"}, {"b-0", 10}});
+    city["CityObjects"]["b-0"]["type"] = "BuildingPart";
+    city["CityObjects"]["b-0"]["parents"] = {"b"};
+    city["CityObjects"]["b-0"]["children"] = {"b-0-sign"};
+    city["CityObjects"]["b"] = {{"type", "Building"}, {"children", {"b-0"}}};
+    city["CityObjects"]["b-0-sign"] = {{"type", "BuildingInstallation"}, {"parents", {"b-0"}}};
+    CHECK(run({"generalise", folder.write("in.city.json", city.dump()), "--neighbours", "--scale",
+               "1:10000", "--profile", town_profile(folder), "-o", folder / "out.city.json"})
+              .exit == 0);
+    CHECK(ids_in(output_of(folder)) == std::set<std::string>{"a"});
+  }
+
+  TEST_CASE("groups ask for neighbours and a scale and are in no series") {
+    const Folder folder;
+    const std::string city = folder.write("in.city.json", boxes({{"a"}, {"b", 10}}).dump());
+    const std::string profile = town_profile(folder);
+    CHECK(run({"generalise", city, "--scale", "1:10000", "--profile", profile, "-o", "-"})
+              .says("R277"));
+    const Outcome series = run({"generalise", city, "--series", "1:5000,1:10000", "--profile",
+                                profile, "--neighbours", "-o", folder / "s"});
+    CHECK(series.says("R278"));
+    CHECK(series.exit == 4);
+    CHECK(run({"generalise", city, "--neighbours", "--scale", "1:10000", "--profile", profile, "-o",
+               folder / "x.obj"})
+              .exit == 2);
+    CHECK(run({"generalise", city, "--neighbours", "--scale", "1:5000", "--profile", profile, "-o",
+               folder / "out.city.json"})
+              .exit == 0);
+    CHECK(ids_in(output_of(folder)) == std::set<std::string>{"a", "b"});
   }
 }

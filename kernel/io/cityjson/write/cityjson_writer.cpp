@@ -100,6 +100,8 @@ class CityJsonWriter {
   CityJsonWriter(const detail::CityJsonSource& source, const Document& document,
                  const WriteOptions& options)
       : existing_(options.existing),
+        gone_(options.gone.begin(), options.gone.end()),
+        bared_(options.bared),
         least_digits_(options.finer_digits),
         source_(source),
         document_(document),
@@ -114,7 +116,10 @@ class CityJsonWriter {
                     const std::vector<std::string>& removed) {
     make_pool(labelled);
     for (const LabelledBuilding& building : labelled) relabel(building);
-    if (!removed.empty()) remove({removed.begin(), removed.end()});
+    std::unordered_set<std::string> leaving = without_relatives();
+    leaving.insert(removed.begin(), removed.end());
+    if (!leaving.empty()) remove(leaving);
+    if (!gone_.empty() && source_.is_feature && has_nothing()) return {};
     if (pool_) exchange_vertices();
     root_.set("CityObjects", std::move(objects_));
     const std::string_view text = source_.text;
@@ -406,6 +411,51 @@ class CityJsonWriter {
     }
   }
 
+  [[nodiscard]] bool has_nothing() const {
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      if (!objects_.is_erased(i)) return false;
+    return true;
+  }
+
+  static std::vector<std::string> ids_in(const RawNode& object, std::string_view key) {
+    std::vector<std::string> ids;
+    const std::string_view text = object.value_of(key);
+    if (!RawNode::is_array(text)) return ids;
+    const RawNode array(text);
+    for (std::size_t i = 0; i < array.size(); ++i) ids.push_back(decoded(array.value(i)));
+    return ids;
+  }
+
+  /// Children that are no buildings themselves.
+  void add_installations_of(const RawNode& object, std::unordered_set<std::string>& ids) const {
+    for (const std::string& child : ids_in(object, "children"))
+      if (!building_of_.contains(child)) ids.insert(child);
+  }
+
+  /// The buildings that are gone with their children, the installations of those that are bared,
+  /// and what is no building that was read, an outline at most, and keeps none of its children.
+  [[nodiscard]] std::unordered_set<std::string> without_relatives() const {
+    std::unordered_set<std::string> ids = gone_;
+    if (gone_.empty() && bared_.empty()) return ids;
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (!RawNode::is_object(objects_.value(i))) continue;
+      const bool is_bared = std::ranges::find(bared_, objects_.key(i)) != bared_.end();
+      if (is_bared || gone_.contains(objects_.key(i)))
+        add_installations_of(RawNode(objects_.value(i), arrays_), ids);
+    }
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (!RawNode::is_object(objects_.value(i))) continue;
+      const RawNode object(objects_.value(i), arrays_);
+      const auto children = ids_in(object, "children");
+      const auto is_gone = [&](const std::string& child) { return gone_.contains(child); };
+      const auto leaves = [&](const std::string& child) { return ids.contains(child); };
+      if (std::ranges::any_of(children, is_gone) && std::ranges::all_of(children, leaves) &&
+          !building_of_.contains(objects_.key(i)))
+        ids.insert(objects_.key(i));
+    }
+    return ids;
+  }
+
   /// Drops the vertices that nothing uses any more and writes the new numbers everywhere.
   void exchange_vertices() {
     for (std::size_t i = 0; i < objects_.size(); ++i)
@@ -426,6 +476,8 @@ class CityJsonWriter {
   }
 
   ExistingSemantics existing_;
+  std::unordered_set<std::string> gone_;
+  const std::vector<std::string>& bared_;
   int least_digits_ = 0;
   const detail::CityJsonSource& source_;
   const Document& document_;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "kernel/geometry/planar.h"
+#include "kernel/model/building.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+
+#include <optional>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A piece of ground and the block on it.
+struct UprightBlock {
+  std::vector<Outline> outlines;  ///< z = 0, the interior to the left, the outer one first
+  double ground_m = 0, top_m = 0;
+};
+
+/// The walls, tops and ground faces of blocks that do not touch each other: one body for each.
+Building faces_of(const std::vector<UprightBlock>& blocks);
+
+/// The solid that they make; nothing if it does not close.
+std::optional<Solid> solid_of(const std::vector<UprightBlock>& blocks,
+                              const Tolerances& tolerances);
+
+}  // namespace oriel::detail

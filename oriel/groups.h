@@ -1,0 +1,74 @@
+#pragma once
+
+#include "generalise/generalise.h"
+#include "interpret/experiment/parallel.h"
+#include "interpret/plan/profile.h"
+#include "kernel/base/issue.h"
+#include "kernel/model/building.h"
+#include "kernel/model/solid.h"
+#include "kernel/neighbours/alike_groups.h"
+#include "kernel/neighbours/neighbours.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// Rows and blocks of a city: buildings that adjoin and are alike in height become one upright
+/// block (docs/generalisation.md, Rows and blocks).
+class CityGroups {
+ public:
+  /// What the profile asks for at the scale, of the buildings of a search, which outlives it. All
+  /// solids are made, in shares by what `each` calls.
+  CityGroups(const NeighbourSearch& search, const Profile& profile, double scale,
+             const ForEachShare& each = for_each_in_turn);
+
+  /// What becomes of one building.
+  struct Membership {
+    bool leads = false;     ///< it gets the solid of the group, the others leave
+    std::size_t group = 0;  ///< its number
+  };
+  /// Nothing for a building that is in no group.
+  [[nodiscard]] std::optional<Membership> place_of(const Neighbourhood& building) const;
+
+  /// The solid, in the frame of the building that leads.
+  [[nodiscard]] const Solid& solid(std::size_t group) const { return *groups_[group].solid; }
+  /// Ids of the members, ascending.
+  [[nodiscard]] std::vector<std::string> members(std::size_t group) const;
+  [[nodiscard]] std::size_t size() const { return groups_.size(); }
+  /// What was found at a building: G421 (note) for each that became part of a group, G422 (warning)
+  /// where no valid solid came of one, G423 (note) where adjoining buildings are not alike.
+  [[nodiscard]] std::vector<Issue> issues_of(const Neighbourhood& building) const;
+
+ private:
+  struct DrawnGroup {
+    AlikeGroup found;
+    std::optional<Solid> solid;  ///< nothing: its members stay as they were
+    std::string fault;           ///< why
+  };
+
+  void make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const;
+  [[nodiscard]] const std::string& id(std::size_t building) const {
+    return search_.buildings()[building].id;
+  }
+
+  const NeighbourSearch& search_;
+  std::vector<DrawnGroup> groups_;
+  std::vector<int> group_of_;  ///< by building; -1: none
+  /// By building: those that adjoin it and are of another height.
+  std::vector<std::vector<std::size_t>> unlike_;
+};
+
+/// True if the profile asks for groups at the scale.
+bool asks_for_groups(const Profile& profile, double scale);
+
+/// The building that leads a group, drawn as the group's block, with the attributes
+/// `oriel_members` and those of `labelled`.
+Redrawn drawn_group(const LabelledBuilding& labelled, const Solid& solid,
+                    std::span<const std::string> members);
+
+}  // namespace oriel
