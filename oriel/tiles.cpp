@@ -1,5 +1,7 @@
 #include "oriel/tiles.h"
 
+#include "generalise/series/scale_series.h"
+#include "kernel/io/cityjson/material_colours.h"
 #include "kernel/io/mesh/mesh_writer.h"
 #include "kernel/mesh/level_distance.h"
 
@@ -16,23 +18,38 @@ namespace {
 /// Distances between levels are no further off.
 constexpr double kDistance_m = 0.005;
 
-FlatMesh mesh_of(const Building& building, const LabelledBuilding& level) {
+using Colours = std::vector<std::optional<FaceColour>>;
+
+FlatMesh mesh_of(const Building& building, const LabelledBuilding& level, const Colours& colours) {
   MeshSource source;
-  append_building(source, building, level);
+  append_building(source, building, level, colours);
   return flat_mesh(source, building.frame.origin_m);
+}
+
+/// Facets of a level list the input polygons that they are made of, as the states of the series
+/// have them.
+void name_polygons(OutputRecord& level, const Series& made, double scale) {
+  for (std::size_t b = 0; b < made.buildings.size(); ++b) {
+    const ScaleSeries& series = made.buildings[b].series;
+    LevelState state = series.finest;
+    if (!move_state(state, series.operations, 0, scale) || !level.buildings[b].geometry) continue;
+    auto facet = level.buildings[b].geometry->facets.begin();
+    for (const auto& [outer, of_state] : state.facets) (facet++)->polygons = of_state.polygons;
+  }
 }
 
 /// A building that gains one level after the other, from fine to coarse.
 class TileLevels {
  public:
-  explicit TileLevels(const Building& building) : building_(building) {
+  TileLevels(const Building& building, const Colours& colours)
+      : building_(building), colours_(colours) {
     out_.id = building.id;
     out_.crs = building.frame.crs;
     out_.origin_m = building.frame.origin_m;
   }
 
   void add(const LabelledBuilding& level) {
-    FlatMesh mesh = mesh_of(building_, level);
+    FlatMesh mesh = mesh_of(building_, level, colours_);
     const bool is_new = out_.meshes.empty() || out_.meshes.back() != mesh;
     if (!out_.mesh_at.empty()) out_.error_m.push_back(is_new ? distance(level) : 0);
     if (is_new) {
@@ -51,6 +68,7 @@ class TileLevels {
   }
 
   const Building& building_;
+  const Colours& colours_;
   TileBuilding out_;
   std::optional<Solid> last_;
 };
@@ -58,15 +76,21 @@ class TileLevels {
 }  // namespace
 
 std::vector<TileBuilding> tile_buildings(const Document& document, const Series& made,
-                                         const std::vector<double>& scales) {
+                                         const std::vector<double>& scales, bool has_colours) {
   std::vector<OutputRecord> levels;
-  for (const double scale : scales) levels.push_back(at(made, scale));
+  for (const double scale : scales) {
+    levels.push_back(at(made, scale));
+    if (has_colours) name_polygons(levels.back(), made, scale);
+  }
   std::map<std::string_view, std::size_t> drawn;
   for (std::size_t i = 0; i < made.buildings.size(); ++i)
     drawn.emplace(made.buildings[i].building, i);
   std::vector<TileBuilding> out;
-  for (const Building& building : document.buildings) {
-    TileLevels tile(building);
+  const auto colours =
+      has_colours ? material_colours(document) : std::vector<Colours>(document.buildings.size());
+  for (std::size_t b = 0; b < document.buildings.size(); ++b) {
+    const Building& building = document.buildings[b];
+    TileLevels tile(building, colours[b]);
     const auto found = drawn.find(building.id);
     LabelledBuilding as_read;
     as_read.building = building.id;

@@ -80,16 +80,30 @@ void add_tileset_arguments(CLI::App& command, TilesCall& call) {
       .add_option_function<std::string>(
           "--colours",
           [&call](const std::string& by) {
-            call.tileset.glb.colours = by == "label"     ? GlbColours::by_label
-                                       : by == "surface" ? GlbColours::by_surface
-                                                         : GlbColours::none;
+            call.tileset.glb.colours = by == "label"      ? GlbColours::by_label
+                                       : by == "surface"  ? GlbColours::by_surface
+                                       : by == "material" ? GlbColours::by_material
+                                                          : GlbColours::none;
           },
-          "Colours of the faces, by label, by type of surface, or none")
-      ->check(one_of({"label", "surface", "none"}))
+          "Colours of the faces: by label, by type of surface, by the input's material, or none")
+      ->check(one_of({"label", "surface", "material", "none"}))
       ->default_str("label");
   command.add_flag("--viewer", call.has_viewer,
                    "Write index.html, too: a page that shows the tiles, from any file server");
   command.add_flag("--outlines", call.tileset.glb.has_outlines, "Draw edges as lines, too");
+  command
+      .add_option_function<std::string>(
+          "--compress",
+          [&call](const std::string& by) {
+            call.tileset.glb.compression =
+                by == "meshopt" ? GlbCompression::meshopt : GlbCompression::none;
+          },
+          "How vertices and triangles are compressed; nothing is lost")
+      ->check(one_of({"none", "meshopt"}))
+      ->default_str("none");
+  command.add_flag("--gzip", call.tileset.has_gzip,
+                   "Every file is a gzip archive under its own name, for servers that send "
+                   "Content-Encoding: gzip");
   command
       .add_option("--most-triangles", call.tileset.most_triangles,
                   "Most triangles of a tile with more than one building")

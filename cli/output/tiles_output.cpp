@@ -60,7 +60,8 @@ class Tiler final : public ProducingCommand {
     const Series made = series(document, results, rules_, scales, options);
     product.issues = made.issues;
     timings.measure(Stage::write, [&] {
-      for (const TileBuilding& building : tile_buildings(document, made, scales))
+      for (const TileBuilding& building :
+           tile_buildings(document, made, scales, has_material_colours()))
         product[OutputPart::buildings] += to_bytes(building);
     });
     return product;
@@ -95,11 +96,13 @@ class Tiler final : public ProducingCommand {
   }
   [[nodiscard]] std::string recipe() const override {
     const TilesetOptions& tileset = arguments_.tileset;
-    return fmt::format("tiles scales={} profile={} crs={} most={} colours={} outlines={} viewer={}",
-                       fmt::join(tileset.scales, ","),
-                       arguments_.profile ? arguments_.profile->level : "", tileset.crs,
-                       tileset.most_triangles, static_cast<int>(tileset.glb.colours),
-                       tileset.glb.has_outlines, arguments_.has_viewer);
+    return fmt::format(
+        "tiles scales={} profile={} crs={} most={} colours={} outlines={} viewer={} "
+        "compress={} gzip={}",
+        fmt::join(tileset.scales, ","), arguments_.profile ? arguments_.profile->level : "",
+        tileset.crs, tileset.most_triangles, static_cast<int>(tileset.glb.colours),
+        tileset.glb.has_outlines, arguments_.has_viewer, static_cast<int>(tileset.glb.compression),
+        tileset.has_gzip);
   }
   [[nodiscard]] bool is_streaming() const override { return true; }
 
@@ -107,6 +110,10 @@ class Tiler final : public ProducingCommand {
   [[nodiscard]] const std::optional<TilesetFiles>& written() const { return written_; }
 
  private:
+  [[nodiscard]] bool has_material_colours() const {
+    return arguments_.tileset.glb.colours == GlbColours::by_material;
+  }
+
   [[nodiscard]] std::string path_of(const char* name) const {
     return (fs::path(arguments_.folder) / name).string();
   }

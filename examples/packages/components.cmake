@@ -47,8 +47,8 @@ for bash, zsh and fish, and sample buildings in /usr/share/oriel/samples.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME liboriel-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-       libboost-dev libcgal-dev libexpat1-dev libproj-dev libfmt-dev libgmp-dev libmpfr-dev libnlopt-cxx-dev libopenmesh-dev
-       libsimdjson-dev libspdlog-dev libsqlite3-dev libyaml-cpp-dev nettle-dev nlohmann-json3-dev)
+       libboost-dev libcgal-dev libexpat1-dev libproj-dev libfmt-dev libgmp-dev libmeshoptimizer-dev libmpfr-dev libnlopt-cxx-dev libopenmesh-dev
+       libsimdjson-dev libspdlog-dev libsqlite3-dev libyaml-cpp-dev nettle-dev nlohmann-json3-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "oriel-doc")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "library to label and generalise 3D buildings (development files)
 oriel cuts closed 3D buildings into their parts, names them by rules and

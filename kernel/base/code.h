@@ -65,6 +65,7 @@
   X(E166, 0, "An installation that stays open") \
   X(E167, 0, "STL syntax") \
   X(E168, 0, "Objects that a format has no place for") \
+  X(E169, 0, "No materials") \
   X(E175, 0, "Buildings that overlap") \
   X(E176, 0, "A building inside another") \
   X(E177, 0, "Neighbours in another reference system") \

@@ -5,13 +5,18 @@
 #include "kernel/model/vec3.h"
 #include "kernel/solidify/solidify.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace oriel {
+
+/// Red, green and blue as screens have them (sRGB), and opacity.
+using FaceColour = std::array<std::uint8_t, 4>;
 
 /// A feature that faces of a mesh belong to, or a class of faces where no feature is named.
 struct MeshFeature {
@@ -37,6 +42,8 @@ struct MeshPolygon {
   std::string surface{};
   /// The facet of a solid that it is; invalid: none.
   FacetId facet{};
+  /// That of its material in the input, if it has one.
+  std::optional<FaceColour> colour{};
 };
 
 /// What a mesh is made of: polygons with shared points, in metres, and the features they name.

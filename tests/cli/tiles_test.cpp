@@ -1,6 +1,7 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 #include "tests/support/glb_reader.h"
+#include "tests/support/gunzip.h"
 #include "tests/support/shared.h"
 
 #include <algorithm>
@@ -247,6 +248,59 @@ TEST_SUITE("cli") {
     CHECK(run(call).exit == 0);
     CHECK(files_in(folder / "again") == whole);
     CHECK(run(call).says("nothing left to do"));
+  }
+
+  TEST_CASE("gzip and compression change nothing that is read from a tileset") {
+    const Folder folder;
+    const std::string house = sample("house");
+    const auto files_of = [&](const std::string& name, const std::vector<std::string>& options) {
+      std::vector<std::string> call{"tiles", house, "-o", folder / name, "--crs", "local"};
+      call.insert(call.end(), options.begin(), options.end());
+      REQUIRE(run(call).exit == 0);
+      return files_in(folder / name);
+    };
+    const auto plain = files_of("plain", {}), archives = files_of("gzip", {"--gzip", "--viewer"}),
+               packed = files_of("packed", {"--compress", "meshopt"});
+    CHECK(files_of("again", {"--gzip", "--viewer"}) == archives);
+    CHECK(archives.size() == plain.size() + 1);
+    CHECK(packed.size() == plain.size());
+    for (const auto& [name, bytes] : plain) {
+      CHECK(gunzip(archives.at(name)) == bytes);
+      if (!name.ends_with(".glb")) continue;
+      const GlbReader before(bytes), after(packed.at(name));
+      CHECK(packed.at(name).size() < bytes.size());
+      CHECK(after.local_numbers() == before.local_numbers());
+      CHECK(after.indices() == before.indices());
+      CHECK(after.labels() == before.labels());
+    }
+    // The page is for all servers.
+    CHECK(archives.at("index.html").starts_with("<!DOCTYPE html>"));
+  }
+
+  TEST_CASE("by material, faces have the colours of the input at all levels") {
+    const Folder folder;
+    json city = json::parse(bytes_of(sample("house")));
+    const Outcome none = run({"tiles", sample("house"), "-o", folder / "none", "--colours",
+                              "material", "--crs", "local"});
+    CHECK(none.exit == 0);
+    CHECK(none.says("E169"));
+    city["appearance"]["materials"] = {{{"name", "brick"}, {"diffuseColor", {1, 0, 0}}}};
+    for (auto& [id, object] : city["CityObjects"].items())
+      for (json& geometry : object["geometry"]) geometry["material"]["visual"]["value"] = 0;
+    const Outcome made = run({"tiles", folder.write("a.city.json", city.dump()), "-o",
+                              folder / "tiles", "--colours", "material", "--crs", "local"});
+    CHECK(made.exit == 0);
+    CHECK_FALSE(made.says("E169"));
+    std::size_t levels = 0;
+    for_each_tile(tileset_of(folder / "tiles")["root"], [&](const json& tile) {
+      const auto colours = content_of(folder / "tiles", tile).colours();
+      const auto is_brick = [](const auto& one) {
+        return one == std::array<unsigned char, 4>{255, 0, 0, 255};
+      };
+      CHECK(std::ranges::all_of(colours, is_brick));
+      ++levels;
+    });
+    CHECK(levels == 4);
   }
 
   TEST_CASE("levels between two scales are in equal ratios") {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <meshoptimizer.h>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,11 +44,23 @@ class GlbReader {
     return out;
   }
 
+  /// Positions as they are stored, one number behind the other.
+  [[nodiscard]] std::vector<float> local_numbers() const {
+    return numbers<float>(attribute("POSITION"));
+  }
+
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t primitive = 0) const {
     const auto& accessor = head_["accessors"][number_at(primitive)];
     if (accessor["componentType"] == 5125) return numbers<std::uint32_t>(accessor);
     const auto shorts = numbers<std::uint16_t>(accessor);
     return {shorts.begin(), shorts.end()};
+  }
+
+  [[nodiscard]] std::vector<std::array<unsigned char, 4>> colours() const {
+    const auto flat = numbers<unsigned char>(attribute("COLOR_0"));
+    std::vector<std::array<unsigned char, 4>> out(flat.size() / 4);
+    std::memcpy(out.data(), flat.data(), flat.size());
+    return out;
   }
 
   [[nodiscard]] std::vector<float> feature_ids() const {
@@ -90,6 +103,28 @@ class GlbReader {
     return counts;
   }
 
+  /// The bytes of a view; what is compressed comes decoded.
+  [[nodiscard]] std::string view_bytes(std::size_t number) const {
+    const auto& view = head_["bufferViews"][number];
+    const auto whole = [&](const nlohmann::json& of, const char* name) {
+      return of[name].get<std::size_t>();
+    };
+    if (!view.contains("extensions"))
+      return binary_.substr(whole(view, "byteOffset"), whole(view, "byteLength"));
+    const auto& packed = view["extensions"]["EXT_meshopt_compression"];
+    std::string bytes(whole(view, "byteLength"), '\0');
+    const auto* from =
+        reinterpret_cast<const unsigned char*>(binary_.data()) + whole(packed, "byteOffset");
+    const std::size_t size = whole(packed, "byteLength"), count = whole(packed, "count"),
+                      stride = whole(packed, "byteStride");
+    const int fault = packed["mode"] == "ATTRIBUTES"
+                          ? meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, size)
+                          : meshopt_decodeIndexSequence(bytes.data(), count, stride, from, size);
+    if (fault != 0 || count * stride != bytes.size())
+      throw std::runtime_error("a view that cannot be decoded");
+    return bytes;
+  }
+
  private:
   static std::size_t number(const std::string& bytes, std::size_t at) {
     std::uint32_t value = 0;
@@ -105,10 +140,9 @@ class GlbReader {
   }
   template <class Number>
   [[nodiscard]] std::vector<Number> view(const nlohmann::json& index) const {
-    const auto& view = head_["bufferViews"][index.get<std::size_t>()];
-    std::vector<Number> out(view["byteLength"].get<std::size_t>() / sizeof(Number));
-    std::memcpy(out.data(), binary_.data() + view["byteOffset"].get<std::size_t>(),
-                out.size() * sizeof(Number));
+    const std::string bytes = view_bytes(index.get<std::size_t>());
+    std::vector<Number> out(bytes.size() / sizeof(Number));
+    std::memcpy(out.data(), bytes.data(), out.size() * sizeof(Number));
     return out;
   }
   template <class Number>

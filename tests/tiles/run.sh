@@ -23,10 +23,16 @@ need_programs
 need_packages "$here" "$packages" 180
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-houses=6
+tiles() { # NAME INPUT OPTIONS: a tileset; what it says is shown only if it fails
+  local name=$1 input=$2
+  shift 2
+  "$oriel" tiles "$input" -o "$work/$name" -j 0 --progress none --allow-bad 100% "$@" 2>"$work/$name.log" || { cat "$work/$name.log"; exit 1; }
+}
+houses=60
 "$generate" --count $houses -o "$work/houses.city.jsonl" 2>/dev/null
-"$oriel" tiles "$work/houses.city.jsonl" -o "$work/houses" --scales 1:100,1:500,1:1000,1:5000,1:25000 --viewer --outlines -j 0 --crs EPSG:25832 \
-  --progress none 2>"$work/houses.log" || { cat "$work/houses.log"; exit 1; }
+tiles houses "$work/houses.city.jsonl" --scales 1:100,1:500,1:1000,1:5000,1:25000 --viewer --outlines --crs local --gzip --compress meshopt
+"$generate" --count 6 -o "$work/few.city.jsonl" 2>/dev/null
+tiles packed "$work/few.city.jsonl" --outlines --crs EPSG:25832 --compress meshopt
 folders=("$work/houses")
 if $is_full; then
   "$generate" --count 500 -o "$work/many.city.jsonl" 2>/dev/null

@@ -62,8 +62,8 @@ Colour colour_of_surface(std::string_view surface) {
   return kOther;
 }
 
-std::array<std::uint8_t, 4> linear(Colour colour) {
-  std::array<std::uint8_t, 4> out{0, 0, 0, 255};
+std::array<std::uint8_t, 4> linear(Colour colour, std::uint8_t opacity) {
+  std::array<std::uint8_t, 4> out{0, 0, 0, opacity};
   for (std::size_t i = 0; i < 3; ++i) {
     const double c = colour[i] / 255.0;
     const double value = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);

@@ -62,7 +62,7 @@ class Flattener {
   }
 
   std::uint32_t row_of(const MeshPolygon& polygon) {
-    const auto [row, is_new] = rows_.try_emplace({polygon.feature, polygon.surface},
+    const auto [row, is_new] = rows_.try_emplace({polygon.feature, polygon.surface, polygon.colour},
                                                  static_cast<std::uint32_t>(rows_.size()));
     if (!is_new) return row->second;
     FlatFeature feature;
@@ -71,6 +71,7 @@ class Flattener {
       feature = {named.building, named.id, named.label, "", named.score, named.rule};
     }
     feature.surface = polygon.surface;
+    feature.colour = polygon.colour;
     mesh_.features.push_back(std::move(feature));
     extents_.emplace_back();
     return row->second;
@@ -79,7 +80,7 @@ class Flattener {
   const MeshSource& source_;
   Vec3 origin_m_;
   FlatMesh mesh_;
-  std::map<std::pair<int, std::string>, std::uint32_t> rows_;
+  std::map<std::tuple<int, std::string, std::optional<FaceColour>>, std::uint32_t> rows_;
   std::vector<Box> extents_;
   std::set<std::pair<int, int>> drawn_;
 };

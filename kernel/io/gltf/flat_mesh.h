@@ -26,6 +26,8 @@ struct FlatFeature {
   std::string rule{};
   /// From its lowest point to its highest.
   double height_m = 0;
+  /// That of its material in the input.
+  std::optional<FaceColour> colour{};
 
   friend bool operator==(const FlatFeature&, const FlatFeature&) = default;
 };
@@ -49,8 +51,8 @@ struct FlatMesh {
 };
 
 /// The polygons of `source` as triangles, by `triangulate`, with points less `origin_m`. A feature
-/// has one row for each type of surface among its faces, in the order of the polygons. Polygons
-/// without area have no triangles and are left out.
+/// has one row for each type of surface and each colour among its faces, in the order of the
+/// polygons. Polygons without area have no triangles and are left out.
 FlatMesh flat_mesh(const MeshSource& source, Vec3 origin_m);
 
 /// An affine map of space: p ↦ columns · p + origin.

@@ -1,5 +1,7 @@
 #include "kernel/io/gltf/glb_buffers.h"
 
+#include "kernel/io/gltf/meshopt.h"
+
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +19,8 @@ void pad(std::string& bytes, std::size_t to, char with) {
   while (bytes.size() % to != 0) bytes += with;
 }
 
+void pad_count(std::size_t& count, std::size_t to) { count = (count + to - 1) / to * to; }
+
 void append_number(std::string& bytes, std::size_t number) {
   for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xFFU);
 }
@@ -32,11 +36,40 @@ void append_chunk(std::string& file, std::string_view kind, const std::string& b
 int GlbBuffers::add_view(std::string_view bytes, ViewTarget target, std::size_t stride) {
   pad(bytes_, kAlignment, '\0');
   ordered_json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
-  if (stride > 0) view["byteStride"] = stride;
+  if (target == ViewTarget::vertices) view["byteStride"] = stride;
   if (target != ViewTarget::none) view["target"] = static_cast<int>(target);
-  bytes_ += bytes;
+  if (!add_compressed(bytes, target, stride, view)) bytes_ += bytes;
   views_.push_back(std::move(view));
   return static_cast<int>(views_.size()) - 1;
+}
+
+bool GlbBuffers::add_compressed(std::string_view bytes, ViewTarget target, std::size_t stride,
+                                ordered_json& view) {
+  if (!compresses_ || target == ViewTarget::none) return false;
+  const bool is_vertices = target == ViewTarget::vertices;
+  const std::string smaller =
+      is_vertices ? meshopt_vertices(bytes, stride) : meshopt_indices(bytes, stride);
+  if (smaller.size() >= bytes.size()) return false;
+  pad_count(decoded_bytes_, kAlignment);
+  view["buffer"] = 1;
+  view["byteOffset"] = decoded_bytes_;
+  view["extensions"][kMeshoptExtension] = {{"buffer", 0},
+                                           {"byteOffset", bytes_.size()},
+                                           {"byteLength", smaller.size()},
+                                           {"byteStride", stride},
+                                           {"count", bytes.size() / stride},
+                                           {"mode", is_vertices ? "ATTRIBUTES" : "INDICES"}};
+  decoded_bytes_ += bytes.size();
+  bytes_ += smaller;
+  return true;
+}
+
+ordered_json GlbBuffers::buffers() const {
+  ordered_json all = ordered_json::array({{{"byteLength", bytes_.size()}}});
+  if (has_compressed())
+    all.push_back({{"byteLength", decoded_bytes_},
+                   {"extensions", {{kMeshoptExtension, {{"fallback", true}}}}}});
+  return all;
 }
 
 int GlbBuffers::add_accessor(int view, NumberType component, const char* type, std::size_t count,

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,9 @@ namespace {
 constexpr std::size_t kMostFeatures = 1U << 24U;
 /// The colour of lines, nearly black.
 constexpr double kLineShade = 0.05;
+
+using Rgba = std::array<std::uint8_t, 4>;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// z up as y up.
 FlatMesh::Point turned(const FlatMesh::Point& p) { return {p[0], p[2], p[1] == 0 ? 0 : -p[1]}; }
@@ -48,7 +52,8 @@ ordered_json limits_of(const std::vector<FlatMesh::Point>& points) {
 /// Writes one mesh.
 class GlbWriter {
  public:
-  GlbWriter(const FlatMesh& mesh, const GlbOptions& options) : mesh_(mesh), options_(options) {
+  GlbWriter(const FlatMesh& mesh, const GlbOptions& options)
+      : mesh_(mesh), options_(options), buffers_(options.compression == GlbCompression::meshopt) {
     if (mesh.features.size() > kMostFeatures)
       throw std::length_error("a GLB has 16,777,216 features at most");
   }
@@ -63,6 +68,10 @@ class GlbWriter {
     }
     const ordered_json primitives = this->primitives();
     head["extensionsUsed"] = {"EXT_mesh_features", "EXT_structural_metadata"};
+    if (buffers_.has_compressed()) {
+      head["extensionsUsed"].push_back(detail::kMeshoptExtension);
+      head["extensionsRequired"] = {detail::kMeshoptExtension};
+    }
     head["extensions"]["EXT_structural_metadata"] =
         detail::structural_metadata(mesh_.features, labels(), surfaces(), buffers_);
     head["scene"] = 0;
@@ -72,10 +81,10 @@ class GlbWriter {
     if (t != Vec3{}) node["translation"] = {t.x, t.z, 0 - t.y};
     head["nodes"] = ordered_json::array({node});
     head["meshes"] = ordered_json::array({{{"primitives", primitives}}});
-    head["materials"] = materials();
+    head["materials"] = materials_;
     head["accessors"] = buffers_.accessors();
     head["bufferViews"] = buffers_.views();
-    head["buffers"] = ordered_json::array({{{"byteLength", buffers_.bytes().size()}}});
+    head["buffers"] = buffers_.buffers();
     return detail::glb_file(head, buffers_.bytes());
   }
 
@@ -97,23 +106,52 @@ class GlbWriter {
     const ordered_json lines_attributes = attributes;
     attributes["NORMAL"] = vertices(turned(mesh_.normals), NumberType::single, "VEC3",
                                     sizeof(FlatMesh::Point), ordered_json::object());
-    if (options_.colours != GlbColours::none)
+    const std::vector<Rgba> colours = this->colours();
+    if (!colours.empty())
       attributes["COLOR_0"] =
-          vertices(colours(), NumberType::byte_u, "VEC4", 4, {{"normalized", true}});
+          vertices(of_points(colours), NumberType::byte_u, "VEC4", 4, {{"normalized", true}});
     attributes["_FEATURE_ID_0"] =
         vertices(ids, NumberType::single, "SCALAR", sizeof(float), ordered_json::object());
+    const auto [opaque, transparent] = by_opacity(colours);
     ordered_json all = ordered_json::array();
-    all.push_back({{"attributes", attributes},
-                   {"indices", indices(mesh_.triangles)},
-                   {"material", 0},
-                   {"mode", 4},
-                   {"extensions", {{"EXT_mesh_features", feature_ids()}}}});
+    if (!opaque.empty()) all.push_back(faces(attributes, opaque, "faces", "OPAQUE"));
     if (options_.has_outlines)
       all.push_back({{"attributes", lines_attributes},
                      {"indices", indices(mesh_.edges)},
-                     {"material", 1},
+                     {"material", add_material("edges", kLineShade, "OPAQUE")},
                      {"mode", 1}});
+    if (!transparent.empty())
+      all.push_back(faces(attributes, transparent, "transparent faces", "BLEND"));
     return all;
+  }
+
+  ordered_json faces(const ordered_json& attributes, const Triangles& triangles, const char* name,
+                     const char* alpha_mode) {
+    return {{"attributes", attributes},
+            {"indices", indices(triangles)},
+            {"material", add_material(name, 1, alpha_mode)},
+            {"mode", 4},
+            {"extensions", {{"EXT_mesh_features", feature_ids()}}}};
+  }
+
+  int add_material(const char* name, double shade, const char* alpha_mode) {
+    ordered_json surface{{"metallicFactor", 0}, {"roughnessFactor", 1}};
+    if (shade != 1) surface["baseColorFactor"] = {shade, shade, shade, 1};
+    ordered_json material{{"name", name}, {"pbrMetallicRoughness", surface}};
+    if (std::string_view(alpha_mode) != "OPAQUE") material["alphaMode"] = alpha_mode;
+    materials_.push_back(std::move(material));
+    return static_cast<int>(materials_.size()) - 1;
+  }
+
+  /// Those that nothing shines through, and the others.
+  [[nodiscard]] std::pair<Triangles, Triangles> by_opacity(const std::vector<Rgba>& colours) const {
+    std::pair<Triangles, Triangles> parts;
+    for (const auto& triangle : mesh_.triangles) {
+      const bool is_opaque =
+          colours.empty() || colours[mesh_.feature_of[triangle[0]]][3] == detail::kOpaque;
+      (is_opaque ? parts.first : parts.second).push_back(triangle);
+    }
+    return parts;
   }
 
   [[nodiscard]] ordered_json feature_ids() const {
@@ -133,37 +171,40 @@ class GlbWriter {
       std::vector<std::uint16_t> numbers;
       for (const auto& tuple : tuples)
         for (const std::uint32_t v : tuple) numbers.push_back(static_cast<std::uint16_t>(v));
-      view = buffers_.add_view(bytes_of(numbers), GlbBuffers::ViewTarget::indices);
+      view = buffers_.add_view(bytes_of(numbers), GlbBuffers::ViewTarget::indices,
+                               sizeof(std::uint16_t));
     } else {
-      view = buffers_.add_view(bytes_of(tuples), GlbBuffers::ViewTarget::indices);
+      view = buffers_.add_view(bytes_of(tuples), GlbBuffers::ViewTarget::indices,
+                               sizeof(std::uint32_t));
     }
     return buffers_.add_accessor(
         view, is_short ? GlbBuffers::NumberType::short_u : GlbBuffers::NumberType::int_u, "SCALAR",
         corners * tuples.size());
   }
 
-  [[nodiscard]] std::vector<std::array<std::uint8_t, 4>> colours() const {
-    std::vector<std::array<std::uint8_t, 4>> of_feature, out;
-    for (const FlatFeature& feature : mesh_.features)
-      of_feature.push_back(detail::linear(options_.colours == GlbColours::by_label
-                                              ? detail::colour_of_label(feature.label)
-                                              : detail::colour_of_surface(feature.surface)));
-    out.reserve(mesh_.feature_of.size());
-    for (const std::uint32_t feature : mesh_.feature_of) out.push_back(of_feature[feature]);
+  [[nodiscard]] Rgba colour_of(const FlatFeature& feature) const {
+    if (options_.colours == GlbColours::by_label)
+      return detail::linear(detail::colour_of_label(feature.label));
+    if (options_.colours == GlbColours::by_material && feature.colour) {
+      const auto [red, green, blue, opacity] = *feature.colour;
+      return detail::linear({red, green, blue}, opacity);
+    }
+    return detail::linear(detail::colour_of_surface(feature.surface));
+  }
+
+  /// Of the features; none if faces have no colours.
+  [[nodiscard]] std::vector<Rgba> colours() const {
+    std::vector<Rgba> out;
+    if (options_.colours == GlbColours::none) return out;
+    for (const FlatFeature& feature : mesh_.features) out.push_back(colour_of(feature));
     return out;
   }
 
-  [[nodiscard]] ordered_json materials() const {
-    ordered_json all = ordered_json::array();
-    all.push_back({{"name", "faces"},
-                   {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}});
-    if (options_.has_outlines)
-      all.push_back({{"name", "edges"},
-                     {"pbrMetallicRoughness",
-                      {{"baseColorFactor", {kLineShade, kLineShade, kLineShade, 1}},
-                       {"metallicFactor", 0},
-                       {"roughnessFactor", 1}}}});
-    return all;
+  [[nodiscard]] std::vector<Rgba> of_points(const std::vector<Rgba>& of_features) const {
+    std::vector<Rgba> out;
+    out.reserve(mesh_.feature_of.size());
+    for (const std::uint32_t feature : mesh_.feature_of) out.push_back(of_features[feature]);
+    return out;
   }
 
   [[nodiscard]] std::set<std::string> labels() const {
@@ -180,6 +221,7 @@ class GlbWriter {
   const FlatMesh& mesh_;
   const GlbOptions& options_;
   GlbBuffers buffers_;
+  ordered_json materials_ = ordered_json::array();
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "kernel/base/index.h"
 #include "kernel/io/mesh/mesh_writer.h"
 #include "kernel/model/vec3.h"
 
@@ -89,7 +90,7 @@ class PolygonCollector {
   void add_vertex(Vec3 local) { mesh_.points.push_back(local + origin_m_); }
 
   void add_face(std::vector<std::vector<int>> rings, Vec3 normal, const MeshFeature& feature,
-                std::string surface, FacetId facet = {}) {
+                std::string surface, FacetId facet, std::optional<FaceColour> colour) {
     std::erase_if(rings, [](const std::vector<int>& ring) {
       return std::set<int>(ring.begin(), ring.end()).size() < 3;
     });
@@ -97,7 +98,7 @@ class PolygonCollector {
     for (auto& ring : rings)
       for (int& v : ring) v += first_;
     mesh_.polygons.push_back(
-        {std::move(rings), normal, number_of(feature), std::move(surface), facet});
+        {std::move(rings), normal, number_of(feature), std::move(surface), facet, colour});
   }
 
  private:
@@ -114,27 +115,61 @@ class PolygonCollector {
   std::map<std::pair<std::string, std::string>, int> numbers_;
 };
 
-void add_polygons(MeshSource& mesh, const Building& building, const LabelledBuilding& labelled) {
+using Colours = std::vector<std::optional<FaceColour>>;
+
+/// How often colours occur.
+using ColourCounts = std::map<FaceColour, int>;
+
+std::optional<FaceColour> most_frequent(const ColourCounts& counts) {
+  const auto most = std::ranges::max_element(counts, {}, &ColourCounts::value_type::second);
+  return most == counts.end() ? std::nullopt : std::optional(most->first);
+}
+
+/// The colour of each facet.
+Colours colours_of(const Solid& solid, const LabelledBuilding& labelled,
+                   const Colours& of_polygons) {
+  Colours out(solid.facets.size());
+  if (of_polygons.empty()) return out;
+  std::map<std::string, ColourCounts> of_class;
+  for (std::size_t f = 0; f < out.size(); ++f) {
+    ColourCounts counts;
+    for (const int polygon : solid.facets[f].polygons)
+      if (at(polygon) < of_polygons.size() && of_polygons[at(polygon)])
+        ++counts[*of_polygons[at(polygon)]];
+    out[f] = most_frequent(counts);
+    if (out[f]) ++of_class[class_of(labelled, f)][*out[f]];
+  }
+  for (std::size_t f = 0; f < out.size(); ++f)
+    if (!out[f] && solid.facets[f].polygons.empty())
+      out[f] = most_frequent(of_class[class_of(labelled, f)]);
+  return out;
+}
+
+void add_polygons(MeshSource& mesh, const Building& building, const LabelledBuilding& labelled,
+                  const Colours& colours) {
   PolygonCollector polygons(mesh, building.frame.origin_m);
   for (const Vec3 p : building.vertices) polygons.add_vertex(p);
   int count = 0;
   for (const Polygon& polygon : building.polygons) count = std::max(count, polygon.source + 1);
   const std::vector<MeshFeature> features = features_of(labelled, static_cast<std::size_t>(count));
-  for (const Polygon& polygon : building.polygons)
-    if (!polygon.rings.empty())
-      polygons.add_face(polygon.rings, normalised(area_vector(building.vertices, polygon.rings[0])),
-                        features[static_cast<std::size_t>(polygon.source)],
-                        class_of(labelled, static_cast<std::size_t>(polygon.source)));
+  for (const Polygon& polygon : building.polygons) {
+    if (polygon.rings.empty()) continue;
+    const std::size_t source = at(polygon.source);
+    polygons.add_face(polygon.rings, normalised(area_vector(building.vertices, polygon.rings[0])),
+                      features[source], class_of(labelled, source), {},
+                      source < colours.size() ? colours[source] : std::nullopt);
+  }
 }
 
 void add_solid(MeshSource& mesh, const Solid& solid, Vec3 origin_m,
-               const LabelledBuilding& labelled) {
+               const LabelledBuilding& labelled, const Colours& of_polygons) {
   PolygonCollector polygons(mesh, origin_m);
+  const Colours colours = colours_of(solid, labelled, of_polygons);
   for (const Vertex& vertex : solid.vertices) polygons.add_vertex(vertex.point);
   const std::vector<MeshFeature> features = features_of(labelled, solid.facets.size());
   for (std::size_t f = 0; f < solid.facets.size(); ++f)
     polygons.add_face(solid.facets[f].loops, solid.planes[solid.facets[f].plane.index()].normal,
-                      features[f], class_of(labelled, f), FacetId{static_cast<int>(f)});
+                      features[f], class_of(labelled, f), FacetId{static_cast<int>(f)}, colours[f]);
 }
 
 }  // namespace
@@ -152,11 +187,12 @@ void append_mesh(MeshSource& mesh, const Document& document,
   }
 }
 
-void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels) {
+void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels,
+                     const std::vector<std::optional<FaceColour>>& colours) {
   if (labels.geometry)
-    add_solid(mesh, *labels.geometry, building.frame.origin_m, labels);
+    add_solid(mesh, *labels.geometry, building.frame.origin_m, labels, colours);
   else
-    add_polygons(mesh, building, labels);
+    add_polygons(mesh, building, labels, colours);
 }
 
 }  // namespace oriel

@@ -4,6 +4,7 @@
 #include "kernel/mesh/mesh.h"
 #include "kernel/model/labelled_building.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,11 @@ namespace oriel {
 void append_mesh(MeshSource& mesh, const Document& document,
                  const std::vector<LabelledBuilding>& labelled);
 
-/// The same for one building.
-void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels);
+/// The same for one building. `colours` are those of its polygons by Polygon::source
+/// (material_colours). A facet has the colour that most of its polygons have; one without any, as
+/// oriel makes them, the colour that most facets of its semantic surface's type have.
+void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels,
+                     const std::vector<std::optional<FaceColour>>& colours = {});
 
 /// Wavefront OBJ: an `o` for each building, a `g label_id` for each feature. Faces with holes are
 /// triangulated, others stay as they are. Numbers read back to the same doubles.

@@ -16,6 +16,8 @@ std::string to_bytes(const FlatMesh& mesh) {
     writer.put(feature.score.has_value());
     writer.put(feature.score.value_or(0));
     writer.put(feature.height_m);
+    writer.put(feature.colour.has_value());
+    writer.put(feature.colour.value_or(FaceColour{}));
   }
   writer.put(mesh.points);
   writer.put(mesh.normals);
@@ -33,12 +35,16 @@ FlatMesh flat_mesh_of(std::string_view bytes) {
     for (std::string* text :
          {&feature.building, &feature.id, &feature.label, &feature.surface, &feature.rule})
       reader.get(*text);
-    bool has_score = false;
+    bool has_score = false, has_colour = false;
     double score = 0;
+    FaceColour colour{};
     reader.get(has_score);
     reader.get(score);
     if (has_score) feature.score = score;
     reader.get(feature.height_m);
+    reader.get(has_colour);
+    reader.get(colour);
+    if (has_colour) feature.colour = colour;
   }
   reader.get(mesh.points);
   reader.get(mesh.normals);

@@ -5,6 +5,7 @@
 #include "kernel/io/tiles/byte_stream.h"
 #include "kernel/io/tiles/mesh_bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <stdexcept>
@@ -28,6 +29,13 @@ void put_names(detail::ByteWriter& head, const TileBuilding& building,
     for (const FlatFeature& feature : mesh.features) names.insert(feature.*name);
   head.put(names.size());
   for (const std::string& one : names) head.put(one);
+}
+
+bool has_colour(const TileBuilding& building) {
+  return std::ranges::any_of(building.meshes, [](const FlatMesh& mesh) {
+    return std::ranges::any_of(
+        mesh.features, [](const FlatFeature& feature) { return feature.colour.has_value(); });
+  });
 }
 
 void get_names(detail::ByteReader& head, std::set<std::string>& names) {
@@ -57,6 +65,7 @@ std::string to_bytes(const TileBuilding& building) {
   head.put(stored);
   put_names(head, building, &FlatFeature::label);
   put_names(head, building, &FlatFeature::surface);
+  head.put(has_colour(building));
   const std::string text = head.take();
   detail::ByteWriter out;
   out.put(BuildingSizes{text.size(), meshes.size()});
@@ -124,6 +133,9 @@ void TileBuildings::read_head(std::string_view text, std::uint64_t meshes_at) {
   for (TileEntry::Stored& stored : entry.meshes) stored.at += meshes_at;
   get_names(head, labels_);
   get_names(head, surfaces_);
+  bool has_colour = false;
+  head.get(has_colour);
+  has_colours_ |= has_colour;
   entries_.push_back(std::move(entry));
 }
 

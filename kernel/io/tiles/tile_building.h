@@ -64,6 +64,8 @@ class TileBuildings {
   /// Of all their features.
   [[nodiscard]] const std::set<std::string>& labels() const { return labels_; }
   [[nodiscard]] const std::set<std::string>& surfaces() const { return surfaces_; }
+  /// Any of them has a colour of its own.
+  [[nodiscard]] bool has_colours() const { return has_colours_; }
 
   /// A mesh. Throws InputError E101.
   [[nodiscard]] FlatMesh mesh(const TileEntry::Stored& stored) const;
@@ -78,6 +80,7 @@ class TileBuildings {
   int descriptor_ = -1;
   std::vector<TileEntry> entries_;
   std::set<std::string> labels_, surfaces_;
+  bool has_colours_ = false;
 };
 
 }  // namespace oriel

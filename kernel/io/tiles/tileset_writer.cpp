@@ -1,6 +1,7 @@
 #include "kernel/io/tiles/tileset_writer.h"
 
 #include "kernel/base/printable.h"
+#include "kernel/io/files/gzip.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/tiles/tile_tree.h"
 #include "kernel/io/tiles/tileset_frame.h"
@@ -109,12 +110,19 @@ class TilesetWriter {
         {"geometricError", length(root.box.max - root.box.min) + root.error_m},
         {"root", tree}};
     make_folder(folder_);
-    write_file((fs::path(folder_) / "tileset.json").string(), tileset.dump(1) + "\n");
+    write("tileset.json", tileset.dump(1) + "\n");
     files_.buildings = items_.size();
     return {std::move(files_), std::move(issues_)};
   }
 
  private:
+  /// Returns how many bytes the file has.
+  std::uint64_t write(const std::string& uri, const std::string& content) const {
+    const std::string bytes = options_.has_gzip ? gzip(content) : content;
+    write_file((fs::path(folder_) / uri).string(), bytes);
+    return bytes.size();
+  }
+
   /// False: there is no tileset, and an issue says why.
   bool choose_buildings() {
     std::vector<const TileEntry*> entries;
@@ -132,6 +140,10 @@ class TilesetWriter {
     }
     auto frame = TilesetFrame::of(entries, options_.crs);
     issues_.insert(issues_.end(), frame.issues.begin(), frame.issues.end());
+    if (options_.glb.colours == GlbColours::by_material && !buildings_.has_colours())
+      issues_.push_back(building_issue(
+          Severity::warning, Code::E169, "",
+          "no face has a material with a colour: faces are coloured by their type of surface"));
     frame_ = std::move(frame.value);
     if (!frame_) return false;
     for (const TileEntry* entry : entries)
@@ -188,12 +200,11 @@ class TilesetWriter {
       placement.origin = placement.origin - middle;
       append(mesh, buildings_.mesh(items_[b].entry->stored_at(tile.level)), placement);
     }
-    const std::string glb = write_glb(mesh, middle, options_.glb);
-    write_file((fs::path(folder_) / uri).string(), glb);
+    const std::uint64_t bytes = write(uri, write_glb(mesh, middle, options_.glb));
     TilesetFiles::OfScale& of_scale = files_.scales[tile.level];
     ++of_scale.tiles;
     of_scale.buildings += tile.buildings.size();
-    of_scale.bytes += glb.size();
+    of_scale.bytes += bytes;
     return uri;
   }
 

@@ -24,6 +24,9 @@ struct TilesetOptions {
   /// A tile has so many triangles at most, or one building.
   std::uint64_t most_triangles = 20'000;
   GlbOptions glb{};
+  /// Every file is a gzip archive under its own name, as servers send it with `Content-Encoding:
+  /// gzip`.
+  bool has_gzip = false;
 };
 
 /// What was written.
@@ -45,9 +48,9 @@ struct TilesetFiles {
 /// mapped to east, north and up of the tileset's middle by the affine map that is exact at its
 /// origin. Otherwise it stands where its coordinates say, seen from (0, 0, 0).
 ///
-/// Issues: a warning E161 or E162; an error E207 for each building whose id an earlier one has,
-/// which is left out. No value: E160, E163, or E134 for no buildings. Throws OutputError E601,
-/// InputError E101.
+/// Issues: a warning E161 or E162, or E169 if colours are by material and no face has one; an error
+/// E207 for each building whose id an earlier one has, which is left out. No value: E160, E163, or
+/// E134 for no buildings. Throws OutputError E601, InputError E101.
 Checked<TilesetFiles> write_tileset(const std::string& folder, const TileBuildings& buildings,
                                     const TilesetOptions& options);
 

@@ -3,6 +3,7 @@ import {
   AmbientLight, Box3, Color, DirectionalLight, Matrix4, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
 import {TilesRenderer} from '3d-tiles-renderer/three';
 import {GLTFExtensionsPlugin, GLTFMeshFeaturesExtension, GLTFStructuralMetadataExtension} from '3d-tiles-renderer/three/plugins';
 
@@ -27,10 +28,19 @@ const tiles = new TilesRenderer(new URL('tileset.json', location.href).href);
 tiles.registerPlugin(new GLTFExtensionsPlugin({
   metadata: false,
   rtc: false,
+  meshoptDecoder: MeshoptDecoder,
   plugins: [() => new GLTFMeshFeaturesExtension(), () => new GLTFStructuralMetadataExtension()]
 }));
 // At the root of a server the renderer asks for //tiles/…, which not every server takes.
 tiles.registerPlugin({name: 'ONE_SLASH', preprocessURL: url => String(url).replace(/([^:])\/\/+/g, '$1/')});
+// Files of --gzip come as they are from a server that does not say what they are.
+tiles.registerPlugin({name: 'GZIP', async fetchData(url, options) {
+  const response = await fetch(url, options);
+  if (!response.ok) return response;
+  const content = await response.arrayBuffer(), bytes = new Uint8Array(content);
+  const isGzip = bytes[0] === 0x1f && bytes[1] === 0x8b;
+  return new Response(isGzip ? new Blob([content]).stream().pipeThrough(new DecompressionStream('gzip')) : content);
+}});
 tiles.errorTarget = kPixels;
 tiles.setCamera(camera);
 tiles.autoDisableRendererCulling = true;

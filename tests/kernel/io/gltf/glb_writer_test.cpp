@@ -113,6 +113,82 @@ TEST_SUITE("kernel/io") {
     CHECK_FALSE(has_colours(plain));
   }
 
+  TEST_CASE("by material, faces have the colour of theirs, others that of their surface") {
+    MeshSource source = wall_with_window();
+    source.polygons[0].colour = FaceColour{255, 0, 0, 255};
+    GlbOptions options;
+    options.colours = GlbColours::by_material;
+    const GlbReader glb(write_glb(source, options));
+    const auto& primitives = glb.head()["meshes"][0]["primitives"];
+    CHECK(primitives.size() == 1);
+    const std::string colours = glb.view_bytes(
+        glb.head()["accessors"][primitives[0]["attributes"]["COLOR_0"].get<std::size_t>()]
+                  ["bufferView"]);
+    CHECK(colours.substr(0, 4) == std::string("\xFF\0\0\xFF", 4));
+    // The wall's eight points come first.
+    options.colours = GlbColours::by_surface;
+    CHECK(GlbReader(write_glb(wall_with_window(), options)).view_bytes(2).substr(32) ==
+          colours.substr(32));
+  }
+
+  TEST_CASE("transparent faces are a primitive of their own, with their rows") {
+    MeshSource source = wall_with_window();
+    source.polygons[1].colour = FaceColour{0, 0, 255, 128};
+    GlbOptions options;
+    options.colours = GlbColours::by_material;
+    options.has_outlines = true;
+    const GlbReader glb(write_glb(source, options));
+    const auto &head = glb.head(), &primitives = head["meshes"][0]["primitives"];
+    REQUIRE(primitives.size() == 3);
+    CHECK(primitives[1]["mode"] == 1);
+    CHECK(head["materials"][primitives[2]["material"].get<std::size_t>()]["alphaMode"] == "BLEND");
+    CHECK(glb.indices(0).size() + glb.indices(2).size() == 3 * (8 + 2));
+    CHECK(glb.indices(2).size() == 3 * 2);
+    // By label nothing is transparent.
+    options.colours = GlbColours::by_label;
+    CHECK(GlbReader(write_glb(source, options)).head()["meshes"][0]["primitives"].size() == 2);
+  }
+
+  TEST_CASE("a compressed GLB has the same vertices and indices, byte for byte") {
+    MeshSource source;
+    source.features = {{"city", "roof", "r1"}};
+    for (int i = 0; i < 100; ++i) {
+      const double x = 0.37 * i;
+      for (const Vec3 p : {Vec3{x, 0, 0.1 * i}, Vec3{x + 1, 0, 0}, Vec3{x, 1, 0}})
+        source.points.push_back(p);
+      source.polygons.push_back({{{3 * i, 3 * i + 1, 3 * i + 2}}, {0, 0, 1}, 0, "RoofSurface"});
+    }
+    GlbOptions options;
+    options.has_outlines = true;
+    const std::string bytes = write_glb(source, options);
+    options.compression = GlbCompression::meshopt;
+    const std::string packed_bytes = write_glb(source, options);
+    CHECK(packed_bytes == write_glb(source, options));
+    CHECK(packed_bytes.size() < bytes.size());
+    const GlbReader plain(bytes), packed(packed_bytes);
+    CHECK(packed.head()["extensionsRequired"] == nlohmann::json{"EXT_meshopt_compression"});
+    CHECK_FALSE(plain.head().contains("extensionsRequired"));
+    CHECK(packed.head()["buffers"].size() == 2);
+    const auto views = plain.head()["bufferViews"].size();
+    REQUIRE(packed.head()["bufferViews"].size() == views);
+    for (std::size_t view = 0; view < views; ++view)
+      CHECK(packed.view_bytes(view) == plain.view_bytes(view));
+    CHECK(packed.rows().size() == plain.rows().size());
+  }
+
+  TEST_CASE("what compression would enlarge stays as it is") {
+    MeshSource source;
+    source.features = {{"house", "roof", ""}};
+    source.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    source.polygons = {{{{0, 1, 2}}, {0, 0, 1}, 0, "RoofSurface"}};
+    GlbOptions options;
+    const std::string plain = write_glb(source, options);
+    options.compression = GlbCompression::meshopt;
+    const GlbReader glb(write_glb(source, options));
+    CHECK(glb.points().size() == 3);
+    CHECK(glb.rows().at(0).triangles == 1);
+  }
+
   TEST_CASE("a mesh without faces is a GLB with an empty scene") {
     const GlbReader glb(write_glb(MeshSource{}));
     CHECK(glb.head()["scenes"].size() == 1);
