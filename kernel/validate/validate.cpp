@@ -3,6 +3,7 @@
 #include "kernel/validate/defects.h"
 #include "kernel/validate/polygons/polygon_checks.h"
 #include "kernel/validate/polygons/snapped.h"
+#include "kernel/validate/proof/valid_solid.h"
 #include "kernel/validate/solids/closed_surface.h"
 #include "kernel/validate/solids/shell_checks.h"
 #include "kernel/validate/solids/solid_checks.h"
@@ -170,6 +171,9 @@ std::vector<Finding> validate(const Building& building, const ValidateOptions& o
   if (!building.installations.empty()) return validate(without_installations(building), options);
   const auto snapped = detail::snapped(building, options.snap_m);
   if (!snapped) return {out_of_range(building)};
+  if (is_judged_as_solid(building, options.primitive) && !building.is_composite &&
+      detail::is_surely_valid_solid(*snapped, options))
+    return {};
   FindingList findings(*snapped, options.budget);
   if (building.polygons.empty()) findings.add(detail::Defect::empty, {}, "it has no polygons");
   const JudgedShells shells = judge_polygons(*snapped, options, findings);

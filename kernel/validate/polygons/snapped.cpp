@@ -52,6 +52,8 @@ std::optional<SnappedBuilding> snapped(const Building& building, double snap_m) 
   const auto doubles = std::ranges::unique(out.points);
   out.points.erase(doubles.begin(), doubles.end());
   const Numbers first = group_near_points(out.points, std::max(snap_m * kPerMetre, 1.0));
+  for (std::size_t i = 0; i < first.size() && out.are_all_apart; ++i)
+    out.are_all_apart = first[i] == static_cast<int>(i);
   std::vector<int> number_of;
   number_of.reserve(grid.size());
   for (const MicrometrePoint& point : grid) {

@@ -24,6 +24,8 @@ struct SnappedBuilding {
   std::vector<MicrometrePoint> points;
   std::vector<SnappedPolygon> polygons;
   Vec3 origin_m;
+  /// No two vertices at different places became one.
+  bool are_all_apart = true;
 
   [[nodiscard]] const MicrometrePoint& point(int vertex) const {
     return points[static_cast<std::size_t>(vertex)];

@@ -4,10 +4,11 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/disjoint_sets.h"
+#include "kernel/validate/solids/triangle_pairs.h"
+#include "kernel/validate/solids/triangle_plane.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -284,95 +285,9 @@ bool is_closed(const JudgedShell& shell, const ShellEdges& all, FindingList& fin
   return false;
 }
 
-using TriangleCorners = std::array<int, 3>;
-
 struct ShellTriangle {
   TriangleCorners corners;
   std::size_t polygon;
-};
-
-MicrometreTriangle points_of(const SnappedBuilding& building, const TriangleCorners& corners) {
-  return {building.point(corners[0]), building.point(corners[1]), building.point(corners[2])};
-}
-
-/// `corners` turned so that those shared with `other` come first; how many there are.
-std::size_t shared_first(TriangleCorners& corners, const TriangleCorners& other) {
-  const auto is_shared = [&](int corner) {
-    return std::ranges::find(other, corner) != other.end();
-  };
-  const auto rest = std::ranges::stable_partition(corners, is_shared);
-  return static_cast<std::size_t>(rest.begin() - corners.begin());
-}
-
-/// True if triangles that share an edge, p and q their other corners, lie on each other.
-bool fold_back(const SnappedBuilding& building, const TriangleCorners& a, int p, int q) {
-  const MicrometreTriangle triangle = points_of(building, a);
-  if (side_of(triangle[0], triangle[1], triangle[2], building.point(q)) != 0) return false;
-  const std::size_t axis = main_axis(triangle);
-  const auto flat = [&](int v) { return flattened(building.point(v), axis, true); };
-  return turn(flat(a[0]), flat(a[1]), flat(p)) == turn(flat(a[0]), flat(a[1]), flat(q));
-}
-
-/// True if two triangles have more in common than their common corners and edges.
-bool intersect(const SnappedBuilding& building, TriangleCorners a, TriangleCorners b) {
-  const std::size_t shared = shared_first(a, b);
-  shared_first(b, a);
-  if (shared == 3) return true;
-  if (shared == 2) return fold_back(building, a, a[2], b[2]);
-  const MicrometreTriangle one = points_of(building, a);
-  const MicrometreTriangle other = points_of(building, b);
-  if (shared == 0) return meet(one, other);
-  // Beyond the common corner one of the opposite edges would have to touch the other triangle.
-  return meets(one[1], one[2], other) || meets(other[1], other[2], one);
-}
-
-/// The plane of a triangle in doubles, to tell which boxes lie beside it.
-class TrianglePlane {
- public:
-  explicit TrianglePlane(const MicrometreTriangle& triangle) {
-    const auto vec = [](const MicrometrePoint& p) {
-      return std::array{static_cast<double>(p[0]), static_cast<double>(p[1]),
-                        static_cast<double>(p[2])};
-    };
-    point_ = vec(triangle[0]);
-    const auto b = vec(triangle[1]), c = vec(triangle[2]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      const double first = (b[j] - point_[j]) * (c[k] - point_[k]);
-      const double second = (b[k] - point_[k]) * (c[j] - point_[j]);
-      normal_[i] = first - second;
-      size_[i] = std::abs(first) + std::abs(second);
-    }
-  }
-
-  /// All of the box is on one side, and no corner on the plane: for certain, whatever rounding did.
-  [[nodiscard]] bool is_beside(const Box& box) const {
-    const std::array low{box.min.x, box.min.y, box.min.z}, high{box.max.x, box.max.y, box.max.z};
-    double height = 0, reach = 0, error = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double middle = 0.5 * (low[i] + high[i]) - point_[i], half = 0.5 * (high[i] - low[i]);
-      height += normal_[i] * middle;
-      reach += std::abs(normal_[i]) * half;
-      error += size_[i] * (std::abs(middle) + half);
-    }
-    return std::abs(height) > reach + kError * error;
-  }
-
-  /// 1 before the plane, -1 behind it, for certain; 0: on it, or too near to tell.
-  [[nodiscard]] int side_of(const MicrometrePoint& p) const {
-    double height = 0, error = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double off = static_cast<double>(p[i]) - point_[i];
-      height += normal_[i] * off;
-      error += size_[i] * std::abs(off);
-    }
-    return height > kError * error ? 1 : height < -kError * error ? -1 : 0;
-  }
-
- private:
-  static constexpr double kError = 1e-14;  // tolerance of doubles: some 50 ulp for 10 terms
-
-  std::array<double, 3> point_{}, normal_{}, size_{};
 };
 
 /// All corners of `other` but those of `own`, whose plane this is, are on one side of it for
