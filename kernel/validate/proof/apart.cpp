@@ -79,7 +79,7 @@ class ApartProof {
 
  private:
   /// Where a vertex lies to the patch that is looked at.
-  struct Place {
+  struct VertexPlace {
     int patch = -1;
     int side = 0;  ///< of its plane; 0: in it
     bool is_corner = false;
@@ -120,7 +120,7 @@ class ApartProof {
   /// has to be looked at.
   bool note_common_corners(int p) {
     std::vector<int> met;
-    const Patch& patch = patches_[at(p)];
+    const PlanePatch& patch = patches_[at(p)];
     for (int c = patch.first; c < patch.end; ++c) {
       const auto others = corners_at_[from(c)];
       if (!may_go_on(std::ssize(others))) return false;
@@ -139,7 +139,7 @@ class ApartProof {
   }
 
   bool is_apart_from_edges(int p) {
-    const Patch& patch = patches_[at(p)];
+    const PlanePatch& patch = patches_[at(p)];
     for (int c = patch.first; c < patch.end; ++c) places_[at(from(c))] = {p, 0, true};
     const TrianglePlane plane(points_of(building_, patch.turn));
     bool is_good = true;
@@ -148,8 +148,8 @@ class ApartProof {
     return is_good;
   }
 
-  const Place& place_of(int vertex, int p, const TrianglePlane& plane) {
-    Place& place = places_[at(vertex)];
+  const VertexPlace& place_of(int vertex, int p, const TrianglePlane& plane) {
+    VertexPlace& place = places_[at(vertex)];
     if (place.patch == p) return place;
     int side = plane.side_of(point(vertex));
     if (side == 0) {
@@ -164,7 +164,7 @@ class ApartProof {
     const int one = patch_of(edge), other = patch_of(twins_[at(edge)]);
     if (one == p || other == p || (are_of_one_polygon(one, p) && are_of_one_polygon(other, p)))
       return true;
-    const Place &a = place_of(from(edge), p, plane), &b = place_of(to(edge), p, plane);
+    const VertexPlace &a = place_of(from(edge), p, plane), &b = place_of(to(edge), p, plane);
     if (a.side != 0 && a.side == b.side) return true;
     if (a.side == 0 && b.side == 0 && (a.is_corner || b.is_corner)) {
       doubt(one, p);
@@ -185,7 +185,7 @@ class ApartProof {
   const std::vector<TriangleCorners>& triangles_of(int p) {
     const auto [entry, is_new] = triangles_.try_emplace(p);
     if (!is_new) return entry->second;
-    const Patch& patch = patches_[at(p)];
+    const PlanePatch& patch = patches_[at(p)];
     if (patch.end - patch.first == 3) {
       entry->second = {patch.turn};
     } else {
@@ -225,13 +225,13 @@ class ApartProof {
 
   const SnappedBuilding& building_;
   const ValidateOptions& options_;
-  const std::vector<Patch>& patches_;
+  const std::vector<PlanePatch>& patches_;
   const std::vector<PatchCorner>& corners_;
   const std::vector<int>& twins_;
   CornersAt corners_at_;
   std::vector<int> edges_;                     ///< corners that they begin at, once each
   BoxTree tree_;                               ///< of edges
-  std::vector<Place> places_;                  ///< by vertex
+  std::vector<VertexPlace> places_;            ///< by vertex
   std::vector<int> common_;                    ///< by patch, zero between calls
   std::vector<std::pair<int, int>> doubtful_;  ///< patches
   std::map<int, std::vector<TriangleCorners>> triangles_;  ///< of patches, once asked for

@@ -14,7 +14,7 @@ namespace oriel::detail {
 
 namespace {
 
-using Corners = std::array<int, 3>;
+using TurnCorners = std::array<int, 3>;
 
 Vec3 in_doubles(const MicrometrePoint& p) {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
@@ -60,8 +60,8 @@ class PatchMaker {
 
   /// Three corners that are not on a line and have all others in their plane; nothing if there are
   /// none.
-  [[nodiscard]] std::optional<Corners> corners_in_plane(const SnappedPolygon& polygon) const {
-    const Corners corners = widest_corners(polygon.rings[0]);
+  [[nodiscard]] std::optional<TurnCorners> corners_in_plane(const SnappedPolygon& polygon) const {
+    const TurnCorners corners = widest_corners(polygon.rings[0]);
     const MicrometrePoint &a = point(corners[0]), &b = point(corners[1]), &c = point(corners[2]);
     if (are_collinear(a, b, c)) return std::nullopt;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -80,7 +80,7 @@ class PatchMaker {
   }
 
   /// The first corner, the one furthest from it, and the one furthest from the line of both.
-  [[nodiscard]] Corners widest_corners(const std::vector<int>& ring) const {
+  [[nodiscard]] TurnCorners widest_corners(const std::vector<int>& ring) const {
     const Vec3 first = in_doubles(point(ring[0]));
     const auto distance = [&](int v) { return length(in_doubles(point(v)) - first); };
     const int second = *std::ranges::max_element(ring, {}, distance);
@@ -90,7 +90,7 @@ class PatchMaker {
   }
 
   /// The corners of a plane polygon whose rings are good, turned as its outer ring.
-  std::optional<Corners> turned_as_ring(const SnappedPolygon& polygon, Corners corners) {
+  std::optional<TurnCorners> turned_as_ring(const SnappedPolygon& polygon, TurnCorners corners) {
     const Vec3 first = in_doubles(point(corners[0]));
     const Vec3 normal =
         cross(in_doubles(point(corners[1])) - first, in_doubles(point(corners[2])) - first);
@@ -121,7 +121,7 @@ class PatchMaker {
     const SnappedPolygon& polygon = building_.polygons[number];
     const auto judged = judge(building_, polygon, options_, findings_, FoldsBetween::any_two);
     if (!judged.is_good || judged.triangles.empty()) return false;
-    for (const Corners& corners : judged.triangles) {
+    for (const TurnCorners& corners : judged.triangles) {
       if (are_collinear(point(corners[0]), point(corners[1]), point(corners[2]))) return false;
       add_patch(number, {{corners.begin(), corners.end()}}, corners);
     }
@@ -129,9 +129,9 @@ class PatchMaker {
   }
 
   void add_patch(std::size_t number, const std::vector<std::vector<int>>& rings,
-                 const Corners& turned) {
+                 const TurnCorners& turned) {
     const auto count = [&] { return static_cast<int>(out_.corners.size()); };
-    Patch patch{number, count(), 0, turned, {}};
+    PlanePatch patch{number, count(), 0, turned, {}};
     const int index = static_cast<int>(out_.patches.size());
     for (const auto& ring : rings) {
       const int first = count();

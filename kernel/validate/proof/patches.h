@@ -12,7 +12,7 @@ namespace oriel::detail {
 
 /// A plane part of a polygon: the polygon itself if all its points are in one plane, exactly, else
 /// one of the triangles that judge() makes of it.
-struct Patch {
+struct PlanePatch {
   /// Index in SnappedBuilding::polygons.
   std::size_t polygon = 0;
   /// Its corners are those from `first` to before `end`.
@@ -32,7 +32,7 @@ struct PatchCorner {
 
 /// The polygons of a building in plane patches.
 struct Patches {
-  std::vector<Patch> patches;
+  std::vector<PlanePatch> patches;
   std::vector<PatchCorner> corners;
 };
 
