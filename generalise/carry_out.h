@@ -20,7 +20,8 @@ struct CarriedOut {
   Solid solid;
   /// The features that are gone, ascending.
   std::vector<FeatureId> removed;
-  /// Steps that were not carried out, by feature, each with its code.
+  /// Steps that were not carried out, by feature, each with its code; Code::none: the feature is
+  /// as its operator wants it already.
   struct Refused {
     FeatureId feature;
     Code code = Code::none;

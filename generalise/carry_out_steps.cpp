@@ -97,7 +97,8 @@ class StepRunner {
     if (is_in_another) return;  // it went with what carries it
     const Operator& its = operator_named(task.operation);
     detail::Placed placed = its.redraw({out.solid, segmentation_, task.steps, plan_.scale});
-    if (!placed.solid) return fail(task, Code::G403, placed.reason);
+    if (!placed.solid)
+      return fail(task, placed.is_needless ? Code::none : Code::G403, placed.reason);
     if (task.operation == "flatten" && validator_ &&
         validator_.fitness_of(*placed.solid) == Fitness::unfit)
       return fail(task, Code::G403, "the moved facet would meet another part");

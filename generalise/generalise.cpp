@@ -83,7 +83,7 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
                               pieces_of(plan, table, interpretation));
   // What there was no work left for is told of the building as a whole, by who gave the work.
   for (const CarriedOut::Refused& refusal : done.refused)
-    if (refusal.code != Code::E502)
+    if (refusal.code != Code::E502 && refusal.code != Code::none)
       out.issues.push_back(
           refusal_issue(refusal, segmentation, table, interpretation, plan, target));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
@@ -120,7 +120,9 @@ std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised
     else if (std::ranges::binary_search(generalised.changed, id))
       one.outcome = "changed";
     else if (refused != generalised.refused.end()) {
-      one.outcome = is_part(*refused, plan, interpretation) ? "kept" : "refused";
+      one.outcome = refused->code == Code::none || is_part(*refused, plan, interpretation)
+                        ? "kept"
+                        : "refused";
       one.code = refused->code;
       one.reason = refused->reason;
     } else {

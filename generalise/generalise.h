@@ -102,8 +102,8 @@ struct FeatureOutcome {
   std::string label;      ///< empty: unknown
   std::string operation;  ///< of the plan; empty: none was asked for
   std::string rule;       ///< the pack's entry or the profile's verdict that asked for it
-  /// "kept": nothing was asked for, or is_part(); "omitted"; "changed"; "went along": with what
-  /// carries it or with its row; "refused": it is as it was.
+  /// "kept": nothing was asked for, or nothing is to be done, or is_part(); "omitted"; "changed";
+  /// "went along": with what carries it or with its row; "refused": it is as it was.
   std::string outcome;
   Code code = Code::none;  ///< of a refusal, and of a part
   std::string reason;      ///< of a refusal, and of a part

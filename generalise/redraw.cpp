@@ -246,6 +246,7 @@ Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
   for (int i = 0; i < std::ssize(segmentation.features); ++i)
     if (segmentation.features[at(i)].sense == Sense::imprint &&
         !std::ranges::binary_search(generalised.removed, FeatureId{i}) &&
+        !std::ranges::binary_search(generalised.changed, FeatureId{i}) &&
         !std::ranges::binary_search(generalised.undrawn, FeatureId{i}))
       imprints.push_back(FeatureId{i});
   generalised.solid =

@@ -11,6 +11,9 @@ namespace oriel::detail {
 
 namespace {
 
+/// The rank of `collapse`: what is flush is drawn after all that stands on its facet.
+constexpr int kOutlinesLast = 2;
+
 class TaskMaker {
  public:
   TaskMaker(const Plan& plan, const Segmentation& segmentation)
@@ -31,9 +34,12 @@ class TaskMaker {
         add_rows(std::move(members));
       else
         add_row({members[0].operation, std::move(members)});
-    std::ranges::sort(tasks_, {}, [](const PlanTask& task) {
+    std::ranges::sort(tasks_, {}, [this](const PlanTask& task) {
       const auto first = std::ranges::min(task.steps, {}, &Step::feature).feature;
-      return std::pair{operator_named(task.operation).rank, first};
+      const bool draws_outlines = std::ranges::any_of(
+          task.steps, [&](const Step& step) { return feature(step).sense == Sense::imprint; });
+      const int rank = operator_named(task.operation).rank;
+      return std::pair{draws_outlines ? std::max(rank, kOutlinesLast) : rank, first};
     });
     return std::move(tasks_);
   }

@@ -91,12 +91,35 @@ class SolidCorners {
   std::vector<Vec3> points_;
 };
 
-bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
+/// How far a feature reaches along a direction.
+double extent_along(Vec3 direction, const Feature& feature, const Segmentation& segmentation) {
+  double low = Box::kInfinity, high = -Box::kInfinity;
+  for (const int v : feature.vertices) {
+    const double along = dot(segmentation.vertices[at(v)].point, direction);
+    low = std::min(low, along);
+    high = std::max(high, along);
+  }
+  return high - low;
+}
+
+bool is_depth(const ShortEdge& edge, Sense sense, const Segmentation& segmentation) {
   if (!edge.feature.is_valid()) return false;
   const Feature& feature = segmentation.features[edge.feature.index()];
-  if (feature.sense != Sense::hole || feature.planes.empty()) return false;
+  if (feature.sense != sense || feature.planes.empty()) return false;
   const Vec3 normal = segmentation.planes[feature.planes[0].index()].normal;
-  return length(cross(normalised(edge.to - edge.from), normal)) < kDepthLean;
+  if (length(cross(normalised(edge.to - edge.from), normal)) >= kDepthLean) return false;
+  return sense == Sense::hole ||
+         edge.length_m >= extent_along(normal, feature, segmentation) - kOnBox_m;
+}
+
+/// The edge runs along the depth of a recess.
+bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
+  return is_depth(edge, Sense::hole, segmentation);
+}
+
+/// The edge runs along the depth of a block that was drawn as deep as it was.
+bool is_old_depth(const ShortEdge& edge, const Segmentation& segmentation) {
+  return is_depth(edge, Sense::protrusion, segmentation);
 }
 
 /// By input polygon the feature that an operator drew, or an invalid one if it only went with that.
@@ -234,7 +257,8 @@ std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& af
   if (edges.empty()) return edges;
   const SolidCorners corners(before);
   std::erase_if(edges, [&](const ShortEdge& edge) {
-    return is_depth(edge, segmentation) || (corners.has(edge.from) && corners.has(edge.to));
+    return is_depth(edge, segmentation) || is_old_depth(edge, segmentation) ||
+           (corners.has(edge.from) && corners.has(edge.to));
   });
   return edges;
 }

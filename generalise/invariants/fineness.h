@@ -46,7 +46,7 @@ std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
 
 /// Those of parts that an operator drew: new edges of facets whose input polygons are all of
 /// features that are `changed` or `removed` (both ascending), one of a changed one at least, the
-/// owner. Without those along the depth of a recess.
+/// owner. Without those along the depth of a recess, or of a block that is as deep as it was.
 std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& after,
                                             const Segmentation& segmentation,
                                             const std::vector<FeatureId>& changed,

@@ -1,12 +1,15 @@
 #include "generalise/operators/host.h"
 
+#include "kernel/attach/clearance.h"
 #include "kernel/attach/move_facet.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/segment/flush/draw_imprints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -46,6 +49,48 @@ std::optional<FacetId> ground_under(const Solid& solid, const Host& host, const 
               return FacetId{f};
     }
   return std::nullopt;
+}
+
+/// Imprints that stay are drawn last: the facet still names their polygons.
+bool meets_imprints(const Solid& solid, const Segmentation& segmentation, const Host& host,
+                    const Extents& where, double clear_m) {
+  const std::vector<int>& its = solid.facets[host.facet.index()].polygons;  // sorted
+  return std::ranges::any_of(segmentation.features, [&](const Feature& other) {
+    if (other.sense != Sense::imprint || other.source_polygons.empty() ||
+        !std::ranges::includes(its, other.source_polygons))
+      return false;
+    const Extents e = extents_of(host, segmentation, other);
+    return e.u0 < where.u1 + clear_m && where.u0 < e.u1 + clear_m && e.v0 < where.v1 + clear_m &&
+           where.v0 < e.v1 + clear_m;
+  });
+}
+
+/// The corners of a rectangle on a host, counter-clockwise.
+std::array<Vec3, 4> corners_of(const Host& host, const Extents& e) {
+  const auto point = [&](double u, double v) {
+    return u * host.u + v * host.v + host.plane.offset_m * host.n;
+  };
+  return {point(e.u0, e.v0), point(e.u1, e.v0), point(e.u1, e.v1), point(e.u0, e.v1)};
+}
+
+/// A rectangle lies in its facet, off its edges, but for a lower edge that it stands on.
+bool lies_clear(const Solid& solid, const Host& host, const Extents& where, double clear_m) {
+  const Facet& facet = solid.facets[host.facet.index()];
+  const auto outlines = outlines_of(solid.vertices, facet.loops);
+  const auto corners = corners_of(host, where);
+  const Vec3 middle = 0.5 * (corners[0] + corners[2]);
+  if (!contains(outlines, host.n, middle)) return false;
+  for (const Outline& outline : outlines)
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const std::pair edge{outline[i], outline[(i + 1) % outline.size()]};
+      const bool is_foot = std::abs(dot(edge.first, host.v) - where.v0) < kOnEdge_m &&
+                           std::abs(dot(edge.second, host.v) - where.v0) < kOnEdge_m;
+      if (is_foot) continue;
+      for (std::size_t c = 0; c < corners.size(); ++c)
+        if (distance({corners.at(c), corners.at((c + 1) % corners.size())}, edge) < clear_m)
+          return false;
+    }
+  return true;
 }
 
 /// A plane parallel to the host's, `out_m` in front of it, that looks out (+1) or in (-1).
@@ -91,9 +136,9 @@ Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
              const std::vector<Plane>& planes, Attach kind, double clear_m,
              const std::vector<int>& polygons) {
   Attached made = attach(solid, contacts, planes, kind, clear_m);
-  if (!made.solid) return {std::nullopt, std::move(made.reason)};
+  if (!made.solid) return {std::nullopt, std::move(made.reason), false};
   for (const FacetId facet : made.facets) made.solid->facets[facet.index()].polygons = polygons;
-  return {std::move(made.solid), {}};
+  return {std::move(made.solid), {}, false};
 }
 
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
@@ -115,6 +160,55 @@ Placed place_box(const Solid& solid, const Host& host, Extents where, double dep
   if (ground) return place(solid, {host.facet, *ground}, planes, kind, clear_m, polygons);
   planes.push_back(plane(-up, where.u0, where.v0));
   return place(solid, {host.facet}, planes, kind, clear_m, polygons);
+}
+
+Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,
+                    const Feature& like) {
+  // An imprint is what the segmentation calls one: a facet's polygons with an outline.
+  Segmentation drawn;
+  drawn.planes = {host.plane};
+  Feature imprint = like;
+  imprint.sense = Sense::imprint;
+  imprint.planes = {PlaneId{0}};
+  imprint.outline.clear();
+  for (const Vec3 corner : corners_of(host, where)) {
+    imprint.outline.push_back(static_cast<int>(drawn.vertices.size()));
+    drawn.vertices.push_back({corner, false});
+  }
+  drawn.features = {imprint};
+  Solid out = solid;
+  auto& polygons = out.facets[host.facet.index()].polygons;
+  polygons.insert(polygons.end(), imprint.source_polygons.begin(), imprint.source_polygons.end());
+  std::ranges::sort(polygons);
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  const std::size_t before = out.facets.size();
+  out = draw_imprints(std::move(out), drawn, {FeatureId{0}});
+  if (out.facets.size() == before || !is_closed(out))
+    return {std::nullopt, "its outline does not fit into the facet"};
+  return {std::move(out), {}, false};
+}
+
+Placed place_like(const Solid& solid, const Segmentation& segmentation, const Host& host,
+                  const Extents& where, double depth_m, Sense sense, double clear_m,
+                  const Feature& like) {
+  if (meets_imprints(solid, segmentation, host, where, clear_m))
+    return {std::nullopt, "it would come too near to another part"};
+  if (sense != Sense::imprint)
+    return place_box(solid, host, where, depth_m,
+                     sense == Sense::hole ? Attach::sink : Attach::raise, clear_m,
+                     like.source_polygons);
+  if (!lies_clear(solid, host, where, clear_m))
+    return {std::nullopt, "its outline does not fit into the facet"};
+  return draw_outline(solid, host, where, like);
+}
+
+std::optional<double> box_depth(const Feature& feature, const Extents& extents) {
+  const double area_m2 = extents.width() * extents.height();
+  if (feature.sense == Sense::imprint)
+    return feature.new_area_m2 >= kBoxShare * area_m2 ? std::optional(0.0) : std::nullopt;
+  if (is_box(feature, extents)) return extents.depth();
+  if (feature.sense != Sense::hole || feature.volume_m3 <= 0 || area_m2 <= 0) return std::nullopt;
+  return feature.volume_m3 / area_m2;
 }
 
 bool is_box(const Feature& feature, const Extents& extents) {

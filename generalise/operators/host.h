@@ -38,6 +38,8 @@ Extents extents_of(const Host& host, const Segmentation& segmentation, const Fea
 struct Placed {
   std::optional<Solid> solid;
   std::string reason;
+  /// The feature is as the operator wants it already, or alone in its row: it stays, not refused.
+  bool is_needless = false;
 };
 
 /// A recess or a block with the outline u0…u1 × v0…v1 on a host and the given depth; its facets get
@@ -50,6 +52,23 @@ Placed place_box(const Solid& solid, const Host& host, Extents where, double dep
 Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
              const std::vector<Plane>& planes, Attach kind, double clear_m,
              const std::vector<int>& polygons);
+
+/// What takes the place of openings of one kind on their host: sunk in like a hole, put on like a
+/// protrusion, or drawn like an imprint, whose polygons and semantics are those of `like`. Refused
+/// if it would come nearer than `clear_m` to another imprint that stays on the host, or as
+/// place_box says; an outline may end at the lower edge of its wall.
+Placed place_like(const Solid& solid, const Segmentation& segmentation, const Host& host,
+                  const Extents& where, double depth_m, Sense sense, double clear_m,
+                  const Feature& like);
+
+/// Draws the rectangle `where` on the host as an imprint that has the polygons of `like`.
+Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,
+                    const Feature& like);
+
+/// How deep the box is that a feature is redrawn as: its own depth if it is a box, else its volume
+/// over width × height, the mean depth of a recess of several steps or panes. 0 of an imprint;
+/// nothing if it is neither a recess, a block that is a box, nor a rectangle, or has no volume.
+std::optional<double> box_depth(const Feature& feature, const Extents& extents);
 
 /// A feature is a box on its host if its volume is no less than this share of width × height ×
 /// depth: reveals may lean a little.

@@ -2,7 +2,9 @@
 #include "kernel/segment/remove.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 namespace oriel {
@@ -40,6 +42,16 @@ struct RowMeans {
 /// Shifts and growths below this are rounding: Tolerances::weld_m.
 constexpr double kNoShift_m = 0.001;
 
+/// The kind of most of a row's members, the deeper one where they are even.
+Sense common_sense(const Redrawing& task) {
+  const auto count = [&](Sense sense) {
+    std::ptrdiff_t found = 0;
+    for (std::size_t i = 0; i < task.steps.size(); ++i) found += task.feature(i).sense == sense;
+    return found;
+  };
+  return std::ranges::max(std::array{Sense::hole, Sense::protrusion, Sense::imprint}, {}, count);
+}
+
 /// The ends of the wall along it.
 std::pair<double, double> ends_of(const Solid& solid, const Host& host) {
   double low = Box::kInfinity, high = -Box::kInfinity;
@@ -49,6 +61,29 @@ std::pair<double, double> ends_of(const Solid& solid, const Host& host) {
     high = std::max(high, u);
   }
   return {low, high};
+}
+
+/// `count` copies of a row's mean, `grown` times as large, from its first to its last edge.
+Placed typified(const Redrawing& task, const Host& host, const RowMeans& row, std::size_t count,
+                double grown) {
+  const double width = row.width * grown, height = row.height * grown;
+  const double free_m = row.all.width() - width;
+  if (free_m < 0) return {std::nullopt, "one of those that stay would be wider than the row"};
+  const Sense sense = common_sense(task);
+  Placed placed{task.solid, {}, false};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double part = count == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(count - 1);
+    Extents where = row.all;
+    where.u0 += part * free_m;
+    where.u1 = where.u0 + width;
+    where.v0 = row.middle - height / 2;
+    where.v1 = row.middle + height / 2;
+    // The facet keeps its number, whatever has been sunk into it.
+    placed = place_like(*placed.solid, task.segmentation, host, where, row.depth, sense,
+                        task.gap_m(), task.feature(i));
+    if (!placed.solid) return placed;
+  }
+  return placed;
 }
 
 }  // namespace
@@ -62,26 +97,29 @@ Placed aggregate(const Redrawing& task) {
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall is no longer found"};
   if (becomes_block(task.steps[0])) return block(task, *host);
-  if (task.steps.size() < 2) return {std::nullopt, "it is the only one of its storey and facade"};
+  if (task.steps.size() < 2)
+    return {std::nullopt, "it is the only one of its storey and facade", true};
   Extents all = extents_of(*host, task.segmentation, task.feature());
   double area_m2 = 0, volume_m3 = 0, middle = 0;
   for (std::size_t i = 0; i < task.steps.size(); ++i) {
     const Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    if (task.feature(i).sense != Sense::hole || !is_box(task.feature(i), one))
-      return {std::nullopt, "only recesses that are boxes can be aggregated"};
+    const auto depth_m = box_depth(task.feature(i), one);
+    if (!depth_m)
+      return {std::nullopt, "only recesses, blocks that are boxes and outlines can be aggregated"};
     const double its_m2 = one.width() * one.height();
     area_m2 += its_m2;
-    volume_m3 += its_m2 * one.depth();
+    volume_m3 += its_m2 * *depth_m;
     middle += its_m2 * (one.v0 + one.v1) / 2;
     all.u0 = std::min(all.u0, one.u0);
     all.u1 = std::max(all.u1, one.u1);
   }
   middle /= area_m2;
-  const double height_m = area_m2 / all.width();
+  // A strip lower than the map shows would be refused as too fine.
+  const double height_m = std::max(area_m2 / all.width(), kGapOnMap_m * task.scale + kNoShift_m);
   all.v0 = middle - height_m / 2;
   all.v1 = middle + height_m / 2;
-  return place_box(task.solid, *host, all, volume_m3 / area_m2, Attach::sink, task.gap_m(),
-                   task.feature().source_polygons);
+  return place_like(task.solid, task.segmentation, *host, all, volume_m3 / area_m2,
+                    common_sense(task), task.gap_m(), task.feature());
 }
 
 std::size_t typified_count(std::size_t n, double ratio) {
@@ -91,40 +129,29 @@ std::size_t typified_count(std::size_t n, double ratio) {
 Placed typify(const Redrawing& task) {
   const std::size_t n = task.steps.size();
   const std::size_t m = typified_count(n, task.number("ratio", 0.5));
-  if (m >= n) return {std::nullopt, "its row has no more members than are to stay"};
+  if (m >= n) return {std::nullopt, "its row has no more members than are to stay", true};
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall is no longer found"};
   RowMeans row;
   row.all = extents_of(*host, task.segmentation, task.feature());
   for (std::size_t i = 0; i < n; ++i) {
     const Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    if (task.feature(i).sense != Sense::hole || !is_box(task.feature(i), one))
-      return {std::nullopt, "only recesses that are boxes can be typified"};
+    const auto depth_m = box_depth(task.feature(i), one);
+    if (!depth_m)
+      return {std::nullopt, "only recesses, blocks that are boxes and outlines can be typified"};
     const double share = 1 / static_cast<double>(n);
     row.all.u0 = std::min(row.all.u0, one.u0);
     row.all.u1 = std::max(row.all.u1, one.u1);
     row.width += share * one.width();
     row.height += share * one.height();
     row.middle += share * (one.v0 + one.v1) / 2;
-    row.depth += share * one.depth();
+    row.depth += share * *depth_m;
   }
-  const double grown = std::sqrt(static_cast<double>(n) / static_cast<double>(m));
-  const double width = row.width * grown, height = row.height * grown;
-  const double free_m = row.all.width() - width;
-  if (free_m < 0) return {std::nullopt, "one of those that stay would be wider than the row"};
-  Placed placed{task.solid, {}};
-  for (std::size_t i = 0; i < m; ++i) {
-    const double part = m == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(m - 1);
-    Extents where = row.all;
-    where.u0 += part * free_m;
-    where.u1 = where.u0 + width;
-    where.v0 = row.middle - height / 2;
-    where.v1 = row.middle + height / 2;
-    // The facet keeps its number, whatever has been sunk into it.
-    placed = place_box(*placed.solid, *host, where, row.depth, Attach::sink, task.gap_m(),
-                       task.feature(i).source_polygons);
-    if (!placed.solid) return placed;
-  }
+  const double most = std::sqrt(static_cast<double>(n) / static_cast<double>(m)) - 1;
+  constexpr int kParts = 8;
+  Placed placed;
+  for (int part = kParts; part >= 0 && !placed.solid; --part)
+    placed = typified(task, *host, row, m, 1 + most * part / kParts);
   return placed;
 }
 
@@ -161,12 +188,14 @@ Placed displace(const Redrawing& task) {
   if (!host) return {std::nullopt, "its wall is no longer found"};
   const double to_m = task.number("to", 0), gap_m = task.gap_m();
   std::vector<Extents> members;
-  std::vector<double> centres, apart;
+  std::vector<double> centres, apart, depths;
   bool is_changed = false;
   for (std::size_t i = 0; i < task.steps.size(); ++i) {
     Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    if (task.feature(i).sense != Sense::hole || !is_box(task.feature(i), one))
-      return {std::nullopt, "only recesses that are boxes can be displaced"};
+    const auto depth_m = box_depth(task.feature(i), one);
+    if (!depth_m)
+      return {std::nullopt, "only recesses, blocks that are boxes and outlines can be displaced"};
+    depths.push_back(*depth_m);
     centres.push_back((one.u0 + one.u1) / 2);
     const double more = std::max(0.0, to_m - one.width());
     is_changed = is_changed || more > kNoShift_m;
@@ -189,11 +218,11 @@ Placed displace(const Redrawing& task) {
     members[i].u0 += shift;
     members[i].u1 += shift;
   }
-  if (!is_changed) return {std::nullopt, "there is room enough"};
-  Placed placed{task.solid, {}};
+  if (!is_changed) return {std::nullopt, "there is room enough", true};
+  Placed placed{task.solid, {}, false};
   for (std::size_t i = 0; i < members.size(); ++i) {
-    placed = place_box(*placed.solid, *host, members[i], members[i].depth(), Attach::sink, gap_m,
-                       task.feature(i).source_polygons);
+    placed = place_like(*placed.solid, task.segmentation, *host, members[i], depths[i],
+                        task.feature(i).sense, gap_m, task.feature(i));
     if (!placed.solid) return placed;
   }
   return placed;

@@ -1,10 +1,8 @@
 #include "generalise/operators/operators.h"
 #include "kernel/attach/move_facet.h"
-#include "kernel/segment/flush/draw_imprints.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace oriel {
@@ -124,28 +122,35 @@ Placed enlarge(const Redrawing& task) {
   if (!host) return {std::nullopt, "its wall is no longer found"};
   const Feature& feature = task.feature();
   const Extents now = extents_of(*host, task.segmentation, feature);
-  const bool is_block = feature.sense == Sense::protrusion;
-  if ((feature.sense != Sense::hole && !is_block) || !is_box(feature, now))
-    return {std::nullopt, "only recesses and blocks that are boxes can be enlarged"};
+  const auto depth_m = box_depth(feature, now);
+  if (!depth_m || feature.sense == Sense::cavity)
+    return {std::nullopt, "only recesses, blocks that are boxes and outlines can be enlarged"};
   const double to_m = task.to_m();
   const double more_u = std::max(0.0, to_m - now.width());
   const double more_v = std::max(0.0, to_m - now.height());
-  if (more_u == 0 && more_v == 0) return {std::nullopt, "it is large enough"};
+  if (more_u == 0 && more_v == 0) return {std::nullopt, "it is large enough", true};
   const bool is_on_sill = task.word("anchor", "centre") == "sill";
-  constexpr int kParts = 8;
-  Placed placed;
-  for (int part = kParts; part > 0; --part) {
-    const double u = more_u * part / kParts, v = more_v * part / kParts;
+  const auto grown = [&](double u, double v) {
     Extents then = now;
     then.u0 -= u / 2;
     then.u1 += u / 2;
     then.v0 -= is_on_sill ? 0 : v / 2;
     then.v1 += is_on_sill ? v : v / 2;
-    placed =
-        place_box(task.solid, *host, then, now.depth(), is_block ? Attach::raise : Attach::sink,
-                  task.gap_m(), feature.source_polygons);
-    if (placed.solid) break;
+    return place_like(task.solid, task.segmentation, *host, then, *depth_m, feature.sense,
+                      task.gap_m(), feature);
+  };
+  constexpr int kParts = 8;
+  Placed placed;
+  for (int part = kParts; part > 0; --part) {
+    placed = grown(more_u * part / kParts, more_v * part / kParts);
+    if (placed.solid) return placed;
   }
+  // Where it has room in one direction only it grows in that one.
+  for (int part = kParts; part > 0 && more_u > 0 && more_v > 0; --part)
+    for (const bool is_wider : {true, false}) {
+      Placed one = is_wider ? grown(more_u * part / kParts, 0) : grown(0, more_v * part / kParts);
+      if (one.solid) return one;
+    }
   return placed;
 }
 
@@ -168,28 +173,7 @@ Placed collapse(const Redrawing& task) {
   if (!host) return {std::nullopt, "its wall or roof is no longer found"};
   const Feature& feature = task.feature();
   if (feature.sense == Sense::imprint) return {std::nullopt, "it has no depth"};
-  const Extents e = extents_of(*host, task.segmentation, feature);
-  // An imprint is what the segmentation calls one: a facet's polygons with an outline.
-  Segmentation drawn;
-  drawn.planes = {host->plane};
-  Feature imprint = feature;
-  imprint.sense = Sense::imprint;
-  imprint.planes = {PlaneId{0}};
-  for (const auto& [u, v] : {std::pair{e.u0, e.v0}, {e.u1, e.v0}, {e.u1, e.v1}, {e.u0, e.v1}}) {
-    imprint.outline.push_back(static_cast<int>(drawn.vertices.size()));
-    drawn.vertices.push_back({u * host->u + v * host->v + host->plane.offset_m * host->n, false});
-  }
-  drawn.features = {imprint};
-  Solid solid = task.solid;
-  auto& polygons = solid.facets[host->facet.index()].polygons;
-  polygons.insert(polygons.end(), imprint.source_polygons.begin(), imprint.source_polygons.end());
-  std::ranges::sort(polygons);
-  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
-  const std::size_t before = solid.facets.size();
-  solid = draw_imprints(std::move(solid), drawn, {FeatureId{0}});
-  if (solid.facets.size() == before || !is_closed(solid))
-    return {std::nullopt, "its outline does not fit into the facet"};
-  return {std::move(solid), {}};
+  return draw_outline(task.solid, *host, extents_of(*host, task.segmentation, feature), feature);
 }
 
 Placed flatten(const Redrawing& task) {

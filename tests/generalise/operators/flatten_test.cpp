@@ -17,7 +17,7 @@ namespace {
 constexpr double kScale = 2000;  // sizes 1, 0.5 and 0.25 m, 0.707 m2
 
 /// A block of 10 x 8 x 6 m.
-BoxBody plain_block() { return BoxBody().add({0, 0, 0}, {10, 8, 6}); }
+BoxBody ten_metre_block() { return BoxBody().add({0, 0, 0}, {10, 8, 6}); }
 
 /// What the profile `map` makes of a body whose features all have the label, or none.
 struct Flattened {
@@ -51,7 +51,7 @@ std::string only_step(const Flattened& f) {
 
 TEST_SUITE("generalise") {
   TEST_CASE("a plate on most of a wall moves the wall and keeps the volume") {
-    const auto f = flattened(plain_block().add({0.5, -0.2, 0.5}, {9.5, 0, 5.5}));
+    const auto f = flattened(ten_metre_block().add({0.5, -0.2, 0.5}, {9.5, 0, 5.5}));
     CHECK(only_step(f) == "flatten map:any/lamina");
     check_volume(f, 480 + 9);
     CHECK(f.made.solid.facets.size() == 6);
@@ -60,34 +60,34 @@ TEST_SUITE("generalise") {
   }
 
   TEST_CASE("a plate on less of a wall goes") {
-    const auto f = flattened(plain_block().add({2, -0.2, 2}, {5, 0, 4}));
+    const auto f = flattened(ten_metre_block().add({2, -0.2, 2}, {5, 0, 4}));
     CHECK(only_step(f) == "flatten map:any/lamina");
     check_volume(f, 480);
   }
 
   TEST_CASE("a shallow niche over most of a wall moves the wall inwards") {
-    const auto f = flattened(plain_block().remove({0.5, 0, 0.5}, {9.5, 0.2, 5.5}));
+    const auto f = flattened(ten_metre_block().remove({0.5, 0, 0.5}, {9.5, 0.2, 5.5}));
     CHECK(only_step(f) == "flatten map:any/lamina");
     check_volume(f, 480 - 9);
     CHECK(f.made.solid.facets.size() == 6);
   }
 
   TEST_CASE("an opening that is too shallow leaves its outline") {
-    const auto f = flattened(plain_block().remove({2, 0, 2}, {5, 0.2, 4}), "window");
+    const auto f = flattened(ten_metre_block().remove({2, 0, 2}, {5, 0.2, 4}), "window");
     CHECK(only_step(f) == "collapse map:any/lamina");
     check_volume(f, 480);
     CHECK(f.made.solid.facets.size() == 7);
   }
 
   TEST_CASE("a cap is trimmed and then raises what it lay on") {
-    const auto f = flattened(plain_block().add({-1, 1, 6}, {9, 7, 6.2}));
+    const auto f = flattened(ten_metre_block().add({-1, 1, 6}, {9, 7, 6.2}));
     CHECK(only_step(f) == "flatten map:any/cap");
     check_volume(f, 480 + 9 * 6 * 0.2);
     CHECK(box_of(f.made.solid).min.x == 0);
   }
 
   TEST_CASE("a slab with a name becomes as thick as the least length, one without goes") {
-    const BoxBody body = plain_block().add({3, -1.5, 3}, {7, 0, 3.15});
+    const BoxBody body = ten_metre_block().add({3, -1.5, 3}, {7, 0, 3.15});
     const auto named = flattened(body, "balcony");
     CHECK(only_step(named) == "enlarge map:any/fin");
     check_volume(named, 480 + 4 * 1.5 * 0.25);
@@ -98,15 +98,16 @@ TEST_SUITE("generalise") {
   }
 
   TEST_CASE("a slot is filled and what is thick enough stays") {
-    const auto slot = flattened(plain_block().remove({3, 0, 1}, {3.2, 4, 5}));
+    const auto slot = flattened(ten_metre_block().remove({3, 0, 1}, {3.2, 4, 5}));
     CHECK(only_step(slot) == "omit map:any/enclosed");
     check_volume(slot, 480);
-    CHECK(flattened(plain_block().remove({3, 0, 1}, {4, 4, 5})).plan.steps.empty());
-    CHECK(flattened(plain_block().add({3, -1.5, 3}, {7, 0, 3.25}), "balcony").plan.steps.empty());
+    CHECK(flattened(ten_metre_block().remove({3, 0, 1}, {4, 4, 5})).plan.steps.empty());
+    CHECK(
+        flattened(ten_metre_block().add({3, -1.5, 3}, {7, 0, 3.25}), "balcony").plan.steps.empty());
   }
 
   TEST_CASE("a wall with an outline that stays does not move") {
-    Line line = line_of(plain_block().add({0.5, -0.2, 0.5}, {9.5, 0, 5.5}).build());
+    Line line = line_of(ten_metre_block().add({0.5, -0.2, 0.5}, {9.5, 0, 5.5}).build());
     Feature window;
     window.sense = Sense::imprint;
     window.planes = {line.segmentation.features.at(0).planes.at(0)};

@@ -3,6 +3,7 @@
 #include "interpret/plan/plan.h"
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"
+#include "tests/support/flush.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
@@ -91,11 +92,78 @@ TEST_SUITE("generalise") {
   TEST_CASE("what cannot grow for its neighbours stays as it was") {
     const Line line = line_of(facade().build());
     const auto out =
-        carried(line, plan_for(line, step("enlarge", {{"to", 3}, {"gap", 1}}), is_high));
+        carried(line, plan_for(line, step("enlarge", {{"to", 3}, {"gap", 1.4}}), is_high));
     CHECK_FALSE(out.refused.empty());
     for (const auto& refused : out.refused) CHECK(refused.code == Code::G403);
     CHECK(out.removed.empty());
     CHECK(volume_m3(out.solid) <= volume_m3(line.solid));
+  }
+
+  TEST_CASE("a row of windows with panes of two depths is typified with the mean depth") {
+    BoxBody body;
+    body.add({0, 0, 0}, {10, 8, 6});
+    for (const double x : {1.0, 3.0, 5.0, 7.0})
+      body.remove({x, 0, 3.5}, {x + 1, 0.1, 4.5}).remove({x, 0.1, 3.5}, {x + 0.5, 0.3, 4.5});
+    const Line line = line_of(body.build());
+    const auto is_opening = [](const Feature& f) {
+      return f.sense == Sense::hole && !f.parent.is_valid() && f.box.min.y == 0;
+    };
+    const auto out = carried(line, plan_for(line, step("typify", {{"ratio", 0.5}}), is_opening));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 2);
+    CHECK(volume_m3(out.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-5));
+    CHECK(out.solid.facets.size() == 6 + 2 * 5);
+  }
+
+  TEST_CASE("flush windows are typified and enlarged as outlines") {
+    Building building = plain_block();
+    for (const double x : {1.0, 3.0, 5.0, 7.0}) add_pane(building, x, 3.5, x + 1, 4.5);
+    const Line line = line_of(building);
+    const auto is_pane = [](const Feature& f) { return f.sense == Sense::imprint; };
+    const auto typified = carried(line, plan_for(line, step("typify", {{"ratio", 0.5}}), is_pane));
+    CHECK(typified.refused.empty());
+    CHECK(typified.changed.size() == 2);
+    CHECK(typified.removed.size() == 2);
+    CHECK(typified.solid.facets.size() == 6 + 2);
+    const auto enlarged =
+        carried(line, plan_for(line, step("enlarge", {{"to", 1.5}, {"gap", 0.1}}), is_pane));
+    CHECK(enlarged.refused.empty());
+    CHECK(enlarged.changed.size() == 4);
+    CHECK(enlarged.solid.facets.size() == 6 + 4);
+    CHECK(volume_m3(enlarged.solid) == volume_m3(line.solid));
+  }
+
+  TEST_CASE("a window with room above it only grows upwards") {
+    BoxBody body;
+    body.add({0, 0, 0}, {3.2, 8, 6});
+    for (const double x : {0.4, 1.8}) body.remove({x, 0, 3.5}, {x + 1, 0.2, 4.5});
+    const Line line = line_of(body.build());
+    const auto out =
+        carried(line, plan_for(line, step("enlarge", {{"to", 1.8}, {"gap", 0.35}}), is_high));
+    CHECK(out.changed.size() == 2);
+    for (const Vertex& v : out.solid.vertices)
+      if (v.point.y == 0 && v.point.z > 2 && v.point.z < 5) {
+        CHECK(v.point.z != doctest::Approx(3.5));
+        CHECK(v.point.z != doctest::Approx(4.5));
+      }
+  }
+
+  TEST_CASE("what is as its operator wants it is kept and not refused") {
+    const Line line = line_of(facade().build());
+    const Plan plan = plan_for(line, step("enlarge", {{"to", 0.5}}), is_high);
+    const auto out =
+        generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+    REQUIRE(out.value);
+    CHECK(out.issues.empty());
+    CHECK(out.value->changed.empty());
+    int kept = 0;
+    for (const FeatureOutcome& one :
+         feature_outcomes(plan, *out.value, line.table(), line.interpretation)) {
+      CHECK(one.outcome == "kept");
+      CHECK(one.code == Code::none);
+      kept += one.reason == "it is large enough" ? 1 : 0;
+    }
+    CHECK(kept == 4);
   }
 
   TEST_CASE("windows too near to each other move apart in their order by the least shifts") {
