@@ -149,7 +149,7 @@ class TileFaces {
     const auto points = glb.points();
     double largest = 1;
     for (const float number : glb.local_numbers())
-      largest = std::max(largest, std::abs<double>(number));
+      largest = std::max(largest, std::abs(static_cast<double>(number)));
     reach_ = std::max<std::int64_t>(1, std::llround(1e6 * largest * kUnit));
     for (std::size_t v = 0; v < points.size(); ++v) {
       const std::string& building = row(v).building;
