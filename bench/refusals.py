@@ -1,67 +1,73 @@
 #!/usr/bin/env python3
-"""How often each operator is refused, and why.
+"""What the operators of a pack are refused, and why, over the samples and ../shared (or $ORIEL_SHARED).
 
-    bench/refusals.py ORIEL [--rules PACK] [--scales 1000,2500,5000] INPUT...
+    python3 bench/refusals.py PROGRAM [PACK]     PACK: cartographic if not given
 
-For each scale and operator a line of Markdown: features that it was asked for, those it changed,
-those that were as it wants them already, those refused with the share of all, and the causes.
-What is omitted along with something else was not asked for.
+Prints two tables in Markdown: operator by scale (features asked for, changed or gone, refused, their share), and
+operator by cause. "Asked for" counts the features that a step of the plan names, without those that need nothing
+(outcome "kept"): large enough, alone in their row. Results that are not valid when they are read back are counted
+at the end; `omit` is counted as any other operator.
 """
-
-import argparse
 import collections
+import glob
 import json
-import pathlib
+import os
 import re
 import subprocess
+import sys
 import tempfile
 
-# The operators that draw; omit is refused for reasons of its own.
-OPERATORS = ("aggregate", "collapse", "displace", "enlarge", "flatten", "symbolise", "typify")
+SCALES = (1000, 2500, 5000)
 
 
-def outcomes(oriel, inputs, pack, scale, folder):
-    """The records of --explain at one scale."""
-    why = folder / f"why-{scale}.jsonl"
-    call = [oriel, "generalise", *inputs, "--scale", f"1:{scale}", "--rules", pack, "--explain", why,
-            "-o", f"{folder}/{scale}/", "--progress", "none",
-            "--allow-bad", "100%"]
-    subprocess.run([str(word) for word in call], check=True, stderr=subprocess.DEVNULL)
-    return [json.loads(line) for line in why.read_text().splitlines()]
+def files_of(root):
+    shared = os.environ.get("ORIEL_SHARED", os.path.join(root, "..", "shared"))
+    for name in ("houses/clean", "houses/noisy", "houses/triangles", "random3dcity"):
+        yield name, sorted(glob.glob(os.path.join(shared, "data", name, "*.stripped.city.json")))
+    yield "samples", sorted(glob.glob(os.path.join(root, "examples", "samples", "*.stripped.city.json")))
 
 
-def cause_of(record):
-    """The reason without its numbers."""
-    return re.sub(r"[0-9][0-9.,]*", "…", record.get("reason", ""))
+def outcomes(program, pack, scale, files, folder):
+    why = os.path.join(folder, "why.jsonl")
+    out = os.path.join(folder, "out")
+    subprocess.run([program, "generalise", *files, "--scale", f"1:{scale}", "--rules", pack, "-o", out + "/",
+                    "--explain", why], stderr=subprocess.DEVNULL, check=False)
+    with open(why, encoding="utf-8") as lines:
+        return [json.loads(line) for line in lines], sorted(glob.glob(out + "/*"))
 
 
-def print_operator(scale, operator, records):
-    asked = [r for r in records if r["outcome"] in ("changed", "kept", "refused")]
-    if not asked:
-        return
-    count = collections.Counter(r["outcome"] for r in asked)
-    causes = collections.Counter(cause_of(r) for r in asked if r["outcome"] == "refused")
-    why = "; ".join(f"{cause} ({n})" for cause, n in causes.most_common(3))
-    print(f"| 1:{scale} | {operator} | {len(asked)} | {count['changed']} | {count['kept']} | "
-          f"{count['refused']} ({100 * count['refused'] / len(asked):.0f} %) | {why} |")
+def invalid_of(program, files):
+    run = subprocess.run([program, "validate", *files, "--json"], capture_output=True, text=True, check=False)
+    return run.returncode
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("oriel")
-    parser.add_argument("--rules", default="cartographic")
-    parser.add_argument("--scales", default="1000,2500,5000")
-    parser.add_argument("inputs", nargs="+")
-    options = parser.parse_args()
-    print("| scale | operator | asked for | changed | is so already | refused | why |")
-    print("|---|---|---|---|---|---|---|")
-    with tempfile.TemporaryDirectory() as name:
-        for scale in options.scales.split(","):
-            records = outcomes(options.oriel, options.inputs, options.rules, scale,
-                               pathlib.Path(name))
-            for operator in OPERATORS:
-                print_operator(scale, operator,
-                               [r for r in records if r.get("operation") == operator])
+    program = os.path.abspath(sys.argv[1])
+    pack = sys.argv[2] if len(sys.argv) > 2 else "cartographic"
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    asked, causes, invalid = collections.defaultdict(collections.Counter), collections.Counter(), []
+    for name, files in files_of(root):
+        if not files:
+            sys.exit(f"no buildings of {name}: set ORIEL_SHARED")
+        for scale in SCALES:
+            with tempfile.TemporaryDirectory() as folder:
+                found, written = outcomes(program, pack, scale, files, folder)
+                if invalid_of(program, written) != 0:
+                    invalid.append(f"{name} at 1:{scale}")
+            for one in found:
+                if not one["operation"] or one["outcome"] == "kept":
+                    continue
+                asked[one["operation"], scale][one["outcome"]] += 1
+                if one["outcome"] == "refused":
+                    causes[one["operation"], re.sub(r"\d+(\.\d+)?", "…", one["reason"])] += 1
+    print("| operator | scale | asked for | refused | share |\n|---|---|---|---|---|")
+    for (operation, scale), counts in sorted(asked.items()):
+        total, refused = sum(counts.values()), counts["refused"]
+        print(f"| `{operation}` | 1:{scale} | {total} | {refused} | {100 * refused / total:.0f} % |")
+    print("\n| operator | cause | refused |\n|---|---|---|")
+    for (operation, cause), count in sorted(causes.items(), key=lambda item: (item[0][0], -item[1], item[0][1])):
+        print(f"| `{operation}` | {cause} | {count} |")
+    print("\nNot all valid when read back: " + (", ".join(invalid) or "none"))
 
 
 if __name__ == "__main__":

@@ -78,6 +78,15 @@ TEST_SUITE("generalise") {
     CHECK(out.solid.facets.size() == line.solid.facets.size() - 10);
   }
 
+  TEST_CASE("typified windows grow as far as the wall has room") {
+    const Line line = line_of(facade().add({0, -0.2, 4.7}, {10, 0, 4.9}).build());
+    const auto is_window = [](const Feature& f) { return f.sense == Sense::hole && is_high(f); };
+    const auto out = carried(line, plan_for(line, step("typify", {{"ratio", 0.5}}), is_window));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 2);
+    CHECK(out.removed.size() == 2);
+  }
+
   TEST_CASE("a door grows from its sill on the ground") {
     const Line line = line_of(facade().build());
     const auto out = carried(
