@@ -30,23 +30,22 @@ tiles() { # NAME INPUT OPTIONS: a tileset; what it says is shown only if it fail
 }
 houses=60
 "$generate" --count $houses -o "$work/houses.city.jsonl" 2>/dev/null
+node "$here/town.mjs" "$work/houses.city.jsonl"
 tiles houses "$work/houses.city.jsonl" --scales 1:100,1:500,1:1000,1:5000,1:25000 --viewer --outlines --crs local --gzip --compress meshopt
 "$generate" --count 6 -o "$work/few.city.jsonl" 2>/dev/null
 tiles packed "$work/few.city.jsonl" --outlines --crs EPSG:25832 --compress meshopt
-folders=("$work/houses")
+folders=("$work/packed")
 if $is_full; then
   "$generate" --count 500 -o "$work/many.city.jsonl" 2>/dev/null
-  "$oriel" tiles "$work/many.city.jsonl" -o "$work/many" -j 0 --crs EPSG:25832 --most-triangles 5000 --progress none 2>"$work/many.log" ||
-    { cat "$work/many.log"; exit 1; }
+  tiles many "$work/many.city.jsonl" --crs EPSG:25832 --most-triangles 5000
   folders+=("$work/many")
 fi
 tile="${ORIEL_SHARED:-$root/../shared}/data/3dbag/tile_5910.city.jsonl"
 if [ -e "$tile" ]; then
   part=(--random 20)
   if $is_full; then part=(); fi
-  "$oriel" tiles "$tile" -o "$work/city" "${part[@]}" -j 0 --most-triangles 2000 --colours surface --progress none --allow-bad 100% 2>"$work/city.log" ||
-    { cat "$work/city.log"; exit 1; }
+  tiles city "$tile" "${part[@]}" --most-triangles 2000 --colours surface
   folders+=("$work/city")
 fi
 node "$here/judge.mjs" "$packages" "${folders[@]}"
-node "$here/view.mjs" "$packages" "$(command -v chromium)" "$work/houses" "$houses"
+ORIEL_PIXELS=${ORIEL_PIXELS:-0.2} node "$here/view.mjs" "$packages" "$(command -v chromium)" "$work/houses" "$houses"
