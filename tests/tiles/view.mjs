@@ -53,12 +53,12 @@ try {
   page.on('pageerror', error => complaints.push(error.message));
   page.on('request', request => { if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(origin)) strangers.push(request.url()); });
   await page.goto(`${origin}/index.html?pixels=${process.env.ORIEL_PIXELS ?? 1}`);
-  await page.waitForFunction(() => window.oriel?.isIdle(), null, {timeout: 20_000});
+  await page.waitForFunction(() => window.oriel?.isIdle(), null, {timeout: 60_000});
   for (const [step, scale] of scales.entries()) {
     const {own, over} = levels.get(scale);
     const error = over === Infinity ? 2 * own : own > 0 ? Math.sqrt(own * over) : over / 2;
     const distance = await page.evaluate(error => window.oriel.lookAtError(error), error);
-    await page.waitForFunction(() => window.oriel.isIdle(), null, {timeout: 20_000});
+    await page.waitForFunction(() => window.oriel.isIdle(), null, {timeout: 60_000});
     if (process.env.ORIEL_PICTURES) {
       mkdirSync(process.env.ORIEL_PICTURES, {recursive: true});
       await page.screenshot({path: path.join(process.env.ORIEL_PICTURES, `tiles-${step + 1}.png`)});
