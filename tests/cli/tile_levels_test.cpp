@@ -4,8 +4,10 @@
 #include "tests/support/level_faces.h"
 #include "tests/support/shared.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -36,6 +38,17 @@ LevelFaces level_of(const std::string& stem) {
   for (std::size_t i = 1; i < lines.size(); ++i)
     level.add(json::parse(lines[i]), header["transform"]);
   return level;
+}
+
+/// The first face of each that the other does not have, or nothing.
+std::string difference(const FaceTexts& drawn, const FaceTexts& written) {
+  std::string text;
+  for (const auto& [some, others] : {std::pair(&drawn, &written), std::pair(&written, &drawn)}) {
+    FaceTexts only;
+    std::ranges::set_difference(*some, *others, std::back_inserter(only));
+    if (!only.empty()) text += fmt::format("{} of {}: {}\n", only.size(), some->size(), only[0]);
+  }
+  return text;
 }
 
 template <class Visit>
@@ -92,7 +105,7 @@ class LevelComparison {
       const TileFaces drawn(glb, shift, level);
       for (const auto& [building, faces] : drawn.faces()) {
         INFO(building << " at 1:" << scale);
-        CHECK(faces == level.faces().at(building));
+        CHECK(difference(faces, level.faces().at(building)) == "");
         ++seen_[scale][building];
       }
     }
@@ -116,7 +129,7 @@ TEST_SUITE("cli") {
   TEST_CASE("every generated house in a tileset is the solid of the series at each level") {
     const Folder folder;
     std::vector<std::string> inputs;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 3; ++i) {
       const std::string id = fmt::format("house-{}", i);
       inputs.push_back(folder.write(
           id + ".city.json", oriel::generator::cityjson({id, oriel::generator::generate({}, i), {}},

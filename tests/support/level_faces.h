@@ -53,6 +53,7 @@ struct FaceMeaning {
 using FaceTexts = std::vector<std::string>;
 
 /// The faces of the buildings in the files of a level of a series, read by the tests' own.
+/// Buildings that are not oriel's, as a selection leaves them in their records, are passed over.
 class LevelFaces {
  public:
   /// Adds a file, or a line with the transform of its header.
@@ -70,16 +71,23 @@ class LevelFaces {
     for (const auto& [id, object] : city["CityObjects"].items())
       if (object["type"] == "BuildingInstallation") add_installation(id, object);
     for (const auto& [id, object] : city["CityObjects"].items())
-      if (object["type"] == "Building") add_building(id, object["geometry"][0]);
+      if (object.value("attributes", nlohmann::json::object()).contains("oriel_version"))
+        add_building(id, highest(object["geometry"]));
   }
 
   [[nodiscard]] const std::map<std::string, FaceTexts>& faces() const { return faces_; }
-  /// The vertices of a building.
-  [[nodiscard]] const std::set<WholePlace>& places(const std::string& building) const {
-    return used_.at(building);
+  /// The vertices of a building; none if it was passed over.
+  [[nodiscard]] std::set<WholePlace> places(const std::string& building) const {
+    const auto found = used_.find(building);
+    return found == used_.end() ? std::set<WholePlace>() : found->second;
   }
 
  private:
+  /// The geometry of the highest level of detail.
+  static const nlohmann::json& highest(const nlohmann::json& geometries) {
+    return *std::ranges::max_element(
+        geometries, {}, [](const nlohmann::json& one) { return one["lod"].get<std::string>(); });
+  }
   [[nodiscard]] FaceEdges edges_of(const nlohmann::json& rings) const {
     FaceEdges edges;
     for (const auto& ring : rings)
@@ -101,12 +109,14 @@ class LevelFaces {
   }
 
   void add_building(const std::string& id, const nlohmann::json& geometry) {
+    if (geometry["type"] != "Solid" || !geometry.contains("semantics")) return;
     const auto& surfaces = geometry["semantics"]["surfaces"];
     const auto& boundaries = geometry["boundaries"];
     const auto& values = geometry["semantics"]["values"];
     for (std::size_t shell = 0; shell < boundaries.size(); ++shell)
       for (std::size_t f = 0; f < boundaries[shell].size(); ++f)
-        add_face(id, boundaries[shell][f], surfaces[values[shell][f].get<std::size_t>()]);
+        if (!values[shell][f].is_null())
+          add_face(id, boundaries[shell][f], surfaces[values[shell][f].get<std::size_t>()]);
     std::ranges::sort(faces_[id]);
   }
 
@@ -150,12 +160,15 @@ class TileFaces {
     double largest = 1;
     for (const float number : glb.local_numbers())
       largest = std::max(largest, std::abs(static_cast<double>(number)));
+    std::map<std::string, std::set<WholePlace>> vertices;
     reach_ = std::max<std::int64_t>(1, std::llround(1e6 * largest * kUnit));
     for (std::size_t v = 0; v < points.size(); ++v) {
       const std::string& building = row(v).building;
       WholePlace place{};
       for (std::size_t i = 0; i < 3; ++i) place[i] = std::llround(1e6 * (points[v][i] + shift[i]));
-      places_.push_back(back(place, level.places(building)));
+      const auto known = vertices.try_emplace(building).first;
+      if (known->second.empty()) known->second = level.places(building);
+      places_.push_back(back(place, known->second));
       if (!places_.back()) astray_.insert(building);
     }
     gather();

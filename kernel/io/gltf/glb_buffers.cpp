@@ -15,6 +15,9 @@ namespace {
 /// EXT_structural_metadata wants its views at multiples of eight; for the others four would do.
 constexpr std::size_t kAlignment = 8;
 
+/// What it takes to say that a view is compressed, and that a file has such views, at most.
+constexpr std::size_t kDescription = 400;
+
 void pad(std::string& bytes, std::size_t to, char with) {
   while (bytes.size() % to != 0) bytes += with;
 }
@@ -49,7 +52,7 @@ bool GlbBuffers::add_compressed(std::string_view bytes, ViewTarget target, std::
   const bool is_vertices = target == ViewTarget::vertices;
   const std::string smaller =
       is_vertices ? meshopt_vertices(bytes, stride) : meshopt_indices(bytes, stride);
-  if (smaller.size() >= bytes.size()) return false;
+  if (smaller.size() + kDescription >= bytes.size()) return false;
   pad_count(decoded_bytes_, kAlignment);
   view["buffer"] = 1;
   view["byteOffset"] = decoded_bytes_;

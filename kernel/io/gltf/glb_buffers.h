@@ -19,8 +19,8 @@ class GlbBuffers {
   /// The type of the numbers, likewise.
   enum class NumberType { byte_u = 5121, short_u = 5123, int_u = 5125, single = 5126 };
 
-  /// With `compresses`, views of vertices and indices are compressed where that makes them smaller
-  /// (EXT_meshopt_compression), so that decoders give back the same bytes.
+  /// With `compresses`, views of vertices and indices are compressed where that makes the file
+  /// smaller (EXT_meshopt_compression), so that decoders give back the same bytes.
   explicit GlbBuffers(bool compresses = false) : compresses_(compresses) {}
 
   /// Appends bytes, from a multiple of eight on, and returns the number of their view. `stride`:
