@@ -18,9 +18,8 @@ namespace {
 /// Distances between levels are no further off.
 constexpr double kDistance_m = 0.005;
 
-using Colours = std::vector<std::optional<FaceColour>>;
-
-FlatMesh mesh_of(const Building& building, const LabelledBuilding& level, const Colours& colours) {
+FlatMesh mesh_of(const Building& building, const LabelledBuilding& level,
+                 const FaceColours& colours) {
   MeshSource source;
   append_building(source, building, level, colours);
   return flat_mesh(source, building.frame.origin_m);
@@ -41,7 +40,7 @@ void name_polygons(OutputRecord& level, const Series& made, double scale) {
 /// A building that gains one level after the other, from fine to coarse.
 class TileLevels {
  public:
-  TileLevels(const Building& building, const Colours& colours)
+  TileLevels(const Building& building, const FaceColours& colours)
       : building_(building), colours_(colours) {
     out_.id = building.id;
     out_.crs = building.frame.crs;
@@ -68,7 +67,7 @@ class TileLevels {
   }
 
   const Building& building_;
-  const Colours& colours_;
+  const FaceColours& colours_;
   TileBuilding out_;
   std::optional<Solid> last_;
 };
@@ -86,8 +85,8 @@ std::vector<TileBuilding> tile_buildings(const Document& document, const Series&
   for (std::size_t i = 0; i < made.buildings.size(); ++i)
     drawn.emplace(made.buildings[i].building, i);
   std::vector<TileBuilding> out;
-  const auto colours =
-      has_colours ? material_colours(document) : std::vector<Colours>(document.buildings.size());
+  const auto colours = has_colours ? material_colours(document)
+                                   : std::vector<FaceColours>(document.buildings.size());
   for (std::size_t b = 0; b < document.buildings.size(); ++b) {
     const Building& building = document.buildings[b];
     TileLevels tile(building, colours[b]);

@@ -17,6 +17,8 @@ namespace oriel {
 
 /// Red, green and blue as screens have them (sRGB), and opacity.
 using FaceColour = std::array<std::uint8_t, 4>;
+/// Of each face its colour, if it has one.
+using FaceColours = std::vector<std::optional<FaceColour>>;
 
 /// A feature that faces of a mesh belong to, or a class of faces where no feature is named.
 struct MeshFeature {

@@ -19,8 +19,6 @@ using detail::as_number;
 using detail::as_object;
 using detail::as_string;
 using detail::member;
-using Colours = std::vector<std::optional<FaceColour>>;
-
 std::uint8_t as_byte(double share) {
   constexpr double kMost = 255;
   return static_cast<std::uint8_t>(std::lround(kMost * std::clamp(share, 0.0, 1.0)));
@@ -67,7 +65,7 @@ class MaterialReader {
   }
 
   /// Appends those of the polygons of a geometry.
-  void append(dom::object geometry, Colours& colours) const {
+  void append(dom::object geometry, FaceColours& colours) const {
     const auto kind =
         detail::kind_of_geometry(as_string(member(geometry, "type")).value_or(std::string_view()));
     const auto boundaries = as_array(member(geometry, "boundaries"));
@@ -90,7 +88,7 @@ class MaterialReader {
 
   /// `values` repeats the shape of `boundaries`, without rings; `one` holds for all.
   void append(dom::array boundaries, int depth, const std::optional<dom::element>& values,
-              const std::optional<std::int64_t>& one, Colours& colours) const {
+              const std::optional<std::int64_t>& one, FaceColours& colours) const {
     std::vector<dom::element> of_parts;
     if (const auto list = as_array(values))
       for (const dom::element value : *list) of_parts.push_back(value);
@@ -114,7 +112,7 @@ class MaterialReader {
   }
 
   std::optional<std::string_view> theme_;
-  Colours materials_;
+  FaceColours materials_;
 };
 
 /// The geometries of all CityObjects, each found once by walking over them.
@@ -137,8 +135,8 @@ class GeometryFinder {
 
 }  // namespace
 
-std::vector<std::vector<std::optional<FaceColour>>> material_colours(const Document& document) {
-  std::vector<Colours> all(document.buildings.size());
+std::vector<FaceColours> material_colours(const Document& document) {
+  std::vector<FaceColours> all(document.buildings.size());
   if (!document.source || document.source->text.find("\"materials\"") == std::string::npos)
     return all;
   const detail::CityJsonSource& source = *document.source;

@@ -13,6 +13,6 @@ namespace oriel {
 /// the polygons. Of several themes it is `default-theme-material`, else the first. Nothing for
 /// polygons without a material, for materials without a colour, and for documents that were not
 /// read from CityJSON.
-std::vector<std::vector<std::optional<FaceColour>>> material_colours(const Document& document);
+std::vector<FaceColours> material_colours(const Document& document);
 
 }  // namespace oriel

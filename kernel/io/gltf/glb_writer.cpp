@@ -26,7 +26,7 @@ constexpr std::size_t kMostFeatures = 1U << 24U;
 constexpr double kLineShade = 0.05;
 
 using Rgba = std::array<std::uint8_t, 4>;
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using CornerTriples = std::vector<std::array<std::uint32_t, 3>>;
 
 /// z up as y up.
 FlatMesh::Point turned(const FlatMesh::Point& p) { return {p[0], p[2], p[1] == 0 ? 0 : -p[1]}; }
@@ -125,8 +125,8 @@ class GlbWriter {
     return all;
   }
 
-  ordered_json faces(const ordered_json& attributes, const Triangles& triangles, const char* name,
-                     const char* alpha_mode) {
+  ordered_json faces(const ordered_json& attributes, const CornerTriples& triangles,
+                     const char* name, const char* alpha_mode) {
     return {{"attributes", attributes},
             {"indices", indices(triangles)},
             {"material", add_material(name, 1, alpha_mode)},
@@ -144,8 +144,9 @@ class GlbWriter {
   }
 
   /// Those that nothing shines through, and the others.
-  [[nodiscard]] std::pair<Triangles, Triangles> by_opacity(const std::vector<Rgba>& colours) const {
-    std::pair<Triangles, Triangles> parts;
+  [[nodiscard]] std::pair<CornerTriples, CornerTriples> by_opacity(
+      const std::vector<Rgba>& colours) const {
+    std::pair<CornerTriples, CornerTriples> parts;
     for (const auto& triangle : mesh_.triangles) {
       const bool is_opaque =
           colours.empty() || colours[mesh_.feature_of[triangle[0]]][3] == detail::kOpaque;

@@ -115,8 +115,6 @@ class PolygonCollector {
   std::map<std::pair<std::string, std::string>, int> numbers_;
 };
 
-using Colours = std::vector<std::optional<FaceColour>>;
-
 /// How often colours occur.
 using ColourCounts = std::map<FaceColour, int>;
 
@@ -126,9 +124,9 @@ std::optional<FaceColour> most_frequent(const ColourCounts& counts) {
 }
 
 /// The colour of each facet.
-Colours colours_of(const Solid& solid, const LabelledBuilding& labelled,
-                   const Colours& of_polygons) {
-  Colours out(solid.facets.size());
+FaceColours colours_of(const Solid& solid, const LabelledBuilding& labelled,
+                       const FaceColours& of_polygons) {
+  FaceColours out(solid.facets.size());
   if (of_polygons.empty()) return out;
   std::map<std::string, ColourCounts> of_class;
   for (std::size_t f = 0; f < out.size(); ++f) {
@@ -146,7 +144,7 @@ Colours colours_of(const Solid& solid, const LabelledBuilding& labelled,
 }
 
 void add_polygons(MeshSource& mesh, const Building& building, const LabelledBuilding& labelled,
-                  const Colours& colours) {
+                  const FaceColours& colours) {
   PolygonCollector polygons(mesh, building.frame.origin_m);
   for (const Vec3 p : building.vertices) polygons.add_vertex(p);
   int count = 0;
@@ -162,9 +160,9 @@ void add_polygons(MeshSource& mesh, const Building& building, const LabelledBuil
 }
 
 void add_solid(MeshSource& mesh, const Solid& solid, Vec3 origin_m,
-               const LabelledBuilding& labelled, const Colours& of_polygons) {
+               const LabelledBuilding& labelled, const FaceColours& of_polygons) {
   PolygonCollector polygons(mesh, origin_m);
-  const Colours colours = colours_of(solid, labelled, of_polygons);
+  const FaceColours colours = colours_of(solid, labelled, of_polygons);
   for (const Vertex& vertex : solid.vertices) polygons.add_vertex(vertex.point);
   const std::vector<MeshFeature> features = features_of(labelled, solid.facets.size());
   for (std::size_t f = 0; f < solid.facets.size(); ++f)
@@ -188,7 +186,7 @@ void append_mesh(MeshSource& mesh, const Document& document,
 }
 
 void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels,
-                     const std::vector<std::optional<FaceColour>>& colours) {
+                     const FaceColours& colours) {
   if (labels.geometry)
     add_solid(mesh, *labels.geometry, building.frame.origin_m, labels, colours);
   else

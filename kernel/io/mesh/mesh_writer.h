@@ -23,7 +23,7 @@ void append_mesh(MeshSource& mesh, const Document& document,
 /// (material_colours). A facet has the colour that most of its polygons have; one without any, as
 /// oriel makes them, the colour that most facets of its semantic surface's type have.
 void append_building(MeshSource& mesh, const Building& building, const LabelledBuilding& labels,
-                     const std::vector<std::optional<FaceColour>>& colours = {});
+                     const FaceColours& colours = {});
 
 /// Wavefront OBJ: an `o` for each building, a `g label_id` for each feature. Faces with holes are
 /// triangulated, others stay as they are. Numbers read back to the same doubles.
