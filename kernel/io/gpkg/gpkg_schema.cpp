@@ -1,5 +1,6 @@
 #include "kernel/io/gpkg/gpkg_schema.h"
 
+#include "kernel/io/gpkg/crs_definition.h"
 #include "kernel/model/description/attributes.h"
 
 #include <algorithm>
@@ -164,8 +165,9 @@ void make_gpkg(Database& database, const ReferenceSystem& system) {
   if (system.number == -1 || system.number == 4326) return;
   database.run(
       fmt::format("INSERT INTO gpkg_spatial_ref_sys VALUES ({0}, {1}, {2}, {1}, "
-                  "'undefined', {3})",
+                  "{3}, {4})",
                   quoted_text(system.name), system.number, quoted_text(system.organization),
+                  quoted_text(crs_definition(system.organization, system.number)),
                   quoted_text("as the file of buildings names it")));
 }
 

@@ -1,25 +1,13 @@
 #include "kernel/io/tiles/earth.h"
 
+#include "kernel/io/files/proj_pointers.h"
+
 #include <cmath>
 #include <numbers>
-#include <proj.h>
 #include <regex>
 #include <utility>
 
 namespace oriel {
-
-namespace detail {
-
-struct PjDeleter {
-  void operator()(PJ* pj) const { proj_destroy(pj); }
-};
-struct PjContextDeleter {
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-};
-using PjPointer = std::unique_ptr<PJ, PjDeleter>;
-using PjContextPointer = std::unique_ptr<PJ_CONTEXT, PjContextDeleter>;
-
-}  // namespace detail
 
 namespace {
 

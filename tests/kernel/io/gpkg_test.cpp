@@ -112,6 +112,8 @@ TEST_SUITE("kernel/io") {
           "features|25832|1000.5|2003.25");
     CHECK(package.ask("SELECT organization, organization_coordsys_id FROM gpkg_spatial_ref_sys "
                       "WHERE srs_id = 25832") == "EPSG|25832");
+    CHECK(package.ask("SELECT definition FROM gpkg_spatial_ref_sys WHERE srs_id = 25832")
+              .starts_with("PROJCS[\"ETRS89 / UTM zone 32N\",GEOGCS["));
     CHECK(package.ask("SELECT id, type, lod, count_window, count_dormer FROM buildings") ==
           "house|Building|2.2|2|1");
     CHECK(package.ask("SELECT fid, surface, parent, feature, score, area_m2 FROM surfaces") ==
