@@ -202,12 +202,14 @@ Placed place_like(const Solid& solid, const Segmentation& segmentation, const Ho
   return draw_outline(solid, host, where, like);
 }
 
-std::optional<double> box_depth(const Feature& feature, const Extents& extents) {
+std::optional<double> box_depth(const Host& host, const Feature& feature, const Extents& extents) {
   const double area_m2 = extents.width() * extents.height();
   if (feature.sense == Sense::imprint)
     return feature.new_area_m2 >= kBoxShare * area_m2 ? std::optional(0.0) : std::nullopt;
   if (is_box(feature, extents)) return extents.depth();
-  if (feature.sense != Sense::hole || feature.volume_m3 <= 0 || area_m2 <= 0) return std::nullopt;
+  if (feature.sense != Sense::hole || feature.volume_m3 <= 0 || area_m2 <= 0 ||
+      std::abs(host.n.z) >= kWall)
+    return std::nullopt;
   return feature.volume_m3 / area_m2;
 }
 

@@ -67,8 +67,9 @@ Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,
 
 /// How deep the box is that a feature is redrawn as: its own depth if it is a box, else its volume
 /// over width × height, the mean depth of a recess of several steps or panes. 0 of an imprint;
-/// nothing if it is neither a recess, a block that is a box, nor a rectangle, or has no volume.
-std::optional<double> box_depth(const Feature& feature, const Extents& extents);
+/// nothing if it is neither a recess in a wall, a box, nor a rectangle, or has no volume: in a roof
+/// a box in place of another shape would have new directions.
+std::optional<double> box_depth(const Host& host, const Feature& feature, const Extents& extents);
 
 /// A feature is a box on its host if its volume is no less than this share of width × height ×
 /// depth: reveals may lean a little.

@@ -103,7 +103,7 @@ Placed aggregate(const Redrawing& task) {
   double area_m2 = 0, volume_m3 = 0, middle = 0;
   for (std::size_t i = 0; i < task.steps.size(); ++i) {
     const Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    const auto depth_m = box_depth(task.feature(i), one);
+    const auto depth_m = box_depth(*host, task.feature(i), one);
     if (!depth_m)
       return {std::nullopt, "only recesses, blocks that are boxes and outlines can be aggregated"};
     const double its_m2 = one.width() * one.height();
@@ -136,7 +136,7 @@ Placed typify(const Redrawing& task) {
   row.all = extents_of(*host, task.segmentation, task.feature());
   for (std::size_t i = 0; i < n; ++i) {
     const Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    const auto depth_m = box_depth(task.feature(i), one);
+    const auto depth_m = box_depth(*host, task.feature(i), one);
     if (!depth_m)
       return {std::nullopt, "only recesses, blocks that are boxes and outlines can be typified"};
     const double share = 1 / static_cast<double>(n);
@@ -192,7 +192,7 @@ Placed displace(const Redrawing& task) {
   bool is_changed = false;
   for (std::size_t i = 0; i < task.steps.size(); ++i) {
     Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    const auto depth_m = box_depth(task.feature(i), one);
+    const auto depth_m = box_depth(*host, task.feature(i), one);
     if (!depth_m)
       return {std::nullopt, "only recesses, blocks that are boxes and outlines can be displaced"};
     depths.push_back(*depth_m);

@@ -122,7 +122,7 @@ Placed enlarge(const Redrawing& task) {
   if (!host) return {std::nullopt, "its wall is no longer found"};
   const Feature& feature = task.feature();
   const Extents now = extents_of(*host, task.segmentation, feature);
-  const auto depth_m = box_depth(feature, now);
+  const auto depth_m = box_depth(*host, feature, now);
   if (!depth_m || feature.sense == Sense::cavity)
     return {std::nullopt, "only recesses, blocks that are boxes and outlines can be enlarged"};
   const double to_m = task.to_m();
