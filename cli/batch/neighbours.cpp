@@ -10,6 +10,7 @@
 #include <memory>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -17,17 +18,29 @@ namespace oriel::cli {
 
 namespace {
 
-void add_buildings_of(const std::string& file, const RunOptions& options, NeighbourSearch& search) {
+/// Calls tell(issues) for what is wrong in the file.
+template <class Tell>
+void add_buildings_of(const std::string& file, const RunOptions& options, NeighbourSearch& search,
+                      Tell tell) {
   Reader reader(file, options.read_options(file));
-  while (const auto document = reader.next())
-    if (document->value)
-      for (const Building& building : document->value->buildings) search.add(building);
+  while (const auto document = reader.next()) {
+    tell(document->issues);
+    if (!document->value) continue;
+    for (const Building& building : document->value->buildings) search.add(building);
+  }
+}
+
+/// Errors of a file that is only looked at cost its buildings, not the run: they are warnings.
+std::vector<Issue> as_warnings(std::vector<Issue> issues) {
+  std::erase_if(issues, [](const Issue& issue) { return issue.severity != Severity::error; });
+  for (Issue& issue : issues) issue.severity = Severity::warning;
+  return issues;
 }
 
 /// The run itself says what is wrong with an input.
 void add_input(const std::string& file, const RunOptions& options, NeighbourSearch& search) {
   try {
-    add_buildings_of(file, options, search);
+    add_buildings_of(file, options, search, [](const std::vector<Issue>&) {});
   } catch (const InputError&) {
     run_log().debug("neighbours: {} cannot be read", file);
   }
@@ -64,7 +77,8 @@ void find_neighbours(RunOptions& options, Report& report) {
     if (input != "-") add_input(input, options, *search);
   for (const std::string& file : files) {
     refuse_folder(file);
-    add_buildings_of(file, options, *search);
+    add_buildings_of(file, options, *search,
+                     [&](const std::vector<Issue>& issues) { report.add(as_warnings(issues)); });
   }
   search->finish();
   report.add(search->issues());

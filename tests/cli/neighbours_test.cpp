@@ -170,6 +170,20 @@ TEST_SUITE("cli") {
     CHECK(folder.names() == std::vector<std::string>{"town.city.jsonl"});
   }
 
+  TEST_CASE("what a file of neighbours lost is told and costs nothing else") {
+    const Folder folder;
+    const std::string whole = town(folder, 2), empty = folder.write("empty.city.jsonl", "");
+    const std::string cut = folder.write("cut.city.jsonl", bytes_of(whole).substr(0, 3000));
+    for (const auto& [file, code] : {std::pair{empty, "E102"}, {cut, "E10"}}) {
+      CAPTURE(file);
+      const Outcome made =
+          run({"label", whole, "--neighbours=" + file, "-o", folder / "o.city.jsonl"});
+      CHECK(made.exit == 0);
+      CHECK(made.says("warning: "));
+      CHECK(made.says(code));
+    }
+  }
+
   TEST_CASE("a row of houses of like height becomes one block") {
     const Folder folder;
     const Outcome made =
