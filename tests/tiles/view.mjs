@@ -61,7 +61,7 @@ try {
     await page.waitForFunction(() => window.oriel.isIdle(), null, {timeout: 60_000});
     if (process.env.ORIEL_PICTURES) {
       mkdirSync(process.env.ORIEL_PICTURES, {recursive: true});
-      await page.screenshot({path: path.join(process.env.ORIEL_PICTURES, `tiles-${step + 1}.png`)});
+      await page.screenshot({path: path.join(process.env.ORIEL_PICTURES, `tiles-${step + 1}.jpg`), quality: 80});
       console.log(`  1:${scale} from ${distance.toFixed(0)} m`);
       continue;
     }
