@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/batch/input_reader.h"
+#include "cli/batch/inputs/input_reader.h"
 #include "kernel/base/issue.h"
 #include "kernel/model/labelled_building.h"
 #include "oriel/result.h"

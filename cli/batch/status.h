@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/batch/input_reader.h"
+#include "cli/batch/inputs/input_reader.h"
 #include "cli/terminal/exit_code.h"
 #include "kernel/base/issue.h"
 #include "kernel/io/files/output_file.h"

@@ -1,5 +1,5 @@
 #include "cli/batch/arena.h"
-#include "cli/batch/input_files.h"
+#include "cli/batch/inputs/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/column_choice.h"

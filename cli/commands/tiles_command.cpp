@@ -1,6 +1,6 @@
 #include "cli/batch/batch_command.h"
 #include "cli/batch/batch_runner.h"
-#include "cli/batch/input_files.h"
+#include "cli/batch/inputs/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/tiles_output.h"

@@ -1,4 +1,4 @@
-#include "cli/batch/input_files.h"
+#include "cli/batch/inputs/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"

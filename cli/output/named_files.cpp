@@ -1,6 +1,6 @@
 #include "cli/output/named_files.h"
 
-#include "cli/batch/neighbours.h"
+#include "cli/batch/inputs/neighbours.h"
 #include "cli/batch/run_options.h"
 #include "cli/commands/options.h"
 #include "kernel/io/files/partial_files.h"

@@ -1,6 +1,6 @@
-#include "cli/batch/input_reader.h"
+#include "cli/batch/inputs/input_reader.h"
 
-#include "cli/batch/input_files.h"
+#include "cli/batch/inputs/input_files.h"
 #include "cli/terminal/file_advice.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"

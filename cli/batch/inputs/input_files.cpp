@@ -1,4 +1,4 @@
-#include "cli/batch/input_files.h"
+#include "cli/batch/inputs/input_files.h"
 
 #include "cli/batch/run_options.h"
 #include "cli/terminal/logging.h"

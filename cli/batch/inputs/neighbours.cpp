@@ -1,6 +1,6 @@
-#include "cli/batch/neighbours.h"
+#include "cli/batch/inputs/neighbours.h"
 
-#include "cli/batch/input_files.h"
+#include "cli/batch/inputs/input_files.h"
 #include "kernel/base/log.h"
 #include "oriel/neighbours.h"
 #include "oriel/read.h"
