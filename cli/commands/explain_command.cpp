@@ -1,5 +1,6 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/inputs/input_files.h"
+#include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
@@ -273,6 +274,7 @@ ExitCode work(ExplainArguments& arguments) {
   if (!rules) return ExitCode::rules;
   ExitCode before = ExitCode::clean;
   arguments.corrections = load_corrections(arguments.corrections_file, *rules, report, before);
+  find_neighbours(arguments, report);
   if (arguments.surface >= 0) return graver(before, explain_surfaces(arguments, *rules));
   if (!arguments.at.empty()) return graver(before, explain_place(arguments, *rules));
   if (arguments.feature.empty()) return graver(before, explain_buildings(arguments, *rules));
@@ -341,6 +343,7 @@ void add_explain(CLI::App& app, Action& action) {
       ->excludes(surface);
   add_rules_arguments(*command, *arguments);
   add_corrections_argument(*command, arguments->corrections_file);
+  add_neighbours_argument(*command, *arguments);
   command
       ->add_option("--id", arguments->selection.ids,
                    "Only the building with this id; the others are read and skipped")

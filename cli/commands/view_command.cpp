@@ -1,5 +1,6 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/inputs/input_files.h"
+#include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
@@ -72,6 +73,7 @@ RunOptions arguments_after(const ViewArguments& arguments, std::vector<std::stri
   after.selection.ids = std::move(ids);
   after.lod.clear();
   after.from.clear();
+  after.neighbours.reset();  // those are as they were before
   after.timings_file.clear();
   after.status_stem.clear();
   after.repeat = 1;
@@ -104,6 +106,7 @@ ExitCode work(ViewArguments& arguments) {
   check_page_name(arguments.out);
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
+  find_neighbours(arguments, report);
   PageData page(*rules);
   std::vector<std::string> ids;
   ExitCode code = add_model(arguments, *rules, report, page, ids, false);
@@ -139,6 +142,7 @@ void add_view(CLI::App& app, Action& action) {
       "Write an HTML page that shows buildings; a click on a part shows its label and the reason");
   add_line_arguments(*command, *arguments, true);
   add_rules_arguments(*command, *arguments);
+  add_neighbours_argument(*command, *arguments);
   command->add_option("-o,--output", arguments->out, "HTML file to write, or - for stdout")
       ->required();
   command->add_option(

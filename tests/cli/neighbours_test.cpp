@@ -170,6 +170,27 @@ TEST_SUITE("cli") {
     CHECK(folder.names() == std::vector<std::string>{"town.city.jsonl"});
   }
 
+  TEST_CASE("explain and view look around as label does") {
+    const Folder folder;
+    const std::string whole = town(folder, 2);
+    const std::string pack = folder.write(
+        "street.yaml",
+        "schema: oriel/1\npack: {name: street, version: 1.0.0}\nclasses: {window: {}}\nrules:\n"
+        "  - {id: window, label: window, require: [sense = hole, faces_street]}\n");
+    const auto windows = [&](const std::vector<std::string>& call) {
+      std::vector<std::string> all = call;
+      all.insert(all.end(), {whole, "--rules", pack});
+      const Outcome made = run(all);
+      CHECK(made.exit == 0);
+      return made;
+    };
+    CHECK(windows({"label", "--neighbours", "-o", folder / "o.city.jsonl"}).says(" window"));
+    CHECK(windows({"explain", "--neighbours"}).out.find("window 1") != std::string::npos);
+    CHECK(windows({"explain"}).out.find("window 1") == std::string::npos);
+    CHECK(windows({"view", "--neighbours", "-o", folder / "page.html"}).says(" window"));
+    CHECK(!windows({"view", "-o", folder / "alone.html"}).says(" window"));
+  }
+
   TEST_CASE("what a file of neighbours lost is told and costs nothing else") {
     const Folder folder;
     const std::string whole = town(folder, 2), empty = folder.write("empty.city.jsonl", "");
