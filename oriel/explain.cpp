@@ -2,7 +2,7 @@
 
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/printable.h"
-#include "kernel/geometry/planar.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/vec3.h"
 #include "oriel/corrections.h"
@@ -35,15 +35,6 @@ std::optional<CorrectedLabel> correction_of(const PipelineResult& result, Featur
 
 /// Places are given to the centimetre or so, and recesses that matter are deeper.
 constexpr double kReach_m = 0.05;
-
-std::vector<detail::Outline> outlines_of(const Building& building, const Polygon& polygon) {
-  std::vector<detail::Outline> outlines;
-  for (const auto& ring : polygon.rings) {
-    detail::Outline& outline = outlines.emplace_back();
-    for (const int v : ring) outline.push_back(building.vertices[static_cast<std::size_t>(v)]);
-  }
-  return outlines;
-}
 
 }  // namespace
 
@@ -113,7 +104,7 @@ std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point) {
   const Vec3 local = point - building.frame.origin_m;
   std::optional<PolygonAt> nearest;
   for (std::size_t i = 0; i < building.polygons.size(); ++i) {
-    const auto outlines = outlines_of(building, building.polygons[i]);
+    const auto outlines = detail::outlines_of(building, building.polygons[i]);
     if (outlines.empty() || outlines[0].empty()) continue;
     const Vec3 normal = normalised(area_vector(outlines[0]));
     const double distance = std::abs(dot(local - outlines[0][0], normal));

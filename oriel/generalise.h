@@ -1,11 +1,11 @@
 #pragma once
 
+#include "generalise/city/city_groups.h"
 #include "generalise/generalise.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/issue.h"
 #include "kernel/io/document.h"
-#include "oriel/groups.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
 #include "oriel/write.h"

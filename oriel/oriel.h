@@ -12,7 +12,6 @@
 #include "oriel/experiments/perturb.h"      // IWYU pragma: export
 #include "oriel/explain.h"                  // IWYU pragma: export
 #include "oriel/generalise.h"               // IWYU pragma: export
-#include "oriel/groups.h"                   // IWYU pragma: export
 #include "oriel/interpret.h"                // IWYU pragma: export
 #include "oriel/label.h"                    // IWYU pragma: export
 #include "oriel/mesh.h"                     // IWYU pragma: export

@@ -4,6 +4,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
+#include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/model/vec3.h"
 
@@ -40,29 +41,7 @@ bool loses(const std::vector<LevelLine>& before, const std::vector<LevelLine>& a
          length_near_m(after, *height_m, within_m) < length_near_m(before, *height_m, within_m) / 2;
 }
 
-using detail::HalfSpaceM;
 using detail::Outline;
-
-/// The area of a facet that lies in an outline, both in one plane: the sum over the triangles that
-/// the outline's edges make with its first point, those that run the other way round taken off.
-double area_in(const Solid& solid, const Facet& facet, const Outline& outline, Vec3 normal) {
-  double sum_m2 = 0;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-    Outline triangle{outline[0], outline[i], outline[i + 1]};
-    const double area_m2 = detail::signed_area(triangle, normal);
-    if (area_m2 == 0) continue;
-    if (area_m2 < 0) std::swap(triangle[1], triangle[2]);
-    std::vector<HalfSpaceM> limits;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 outwards = cross(triangle[(k + 1) % 3] - triangle[k], normal);
-      limits.push_back({outwards, dot(outwards, triangle[k])});
-    }
-    const Vec3 its = solid.planes[facet.plane.index()].normal;
-    const double within_m2 = detail::area_within(solid.vertices, facet, its, limits);
-    sum_m2 += area_m2 < 0 ? -within_m2 : within_m2;
-  }
-  return sum_m2;
-}
 
 double shared_m2(const Solid& solid, const PartyWall& wall) {
   double sum_m2 = 0;
@@ -73,19 +52,16 @@ double shared_m2(const Solid& solid, const PartyWall& wall) {
     const bool is_near = std::ranges::all_of(wall.outlines[0],
                                              [&](Vec3 p) { return distance_m(p) <= kPartyWall_m; });
     if (!is_near) continue;
-    // The outer outline runs round its normal, inner ones the other way: their areas are negative.
-    for (const Outline& outline : wall.outlines)
-      sum_m2 += area_in(solid, facet, outline, wall.normal);
+    sum_m2 += detail::shared_area_m2(detail::outlines_of(solid.vertices, facet.loops),
+                                     wall.outlines, wall.normal);
   }
   return sum_m2;
 }
 
 PartyWall wall_of(const Building& building, const Polygon& polygon, Vec3 moved_m) {
-  PartyWall wall;
-  for (const auto& ring : polygon.rings) {
-    Outline& outline = wall.outlines.emplace_back();
-    for (const int v : ring) outline.push_back(building.vertices[at(v)] + moved_m);
-  }
+  PartyWall wall{detail::outlines_of(building, polygon), {}};
+  for (Outline& outline : wall.outlines)
+    for (Vec3& p : outline) p = p + moved_m;
   wall.normal = normalised(area_vector(wall.outlines[0]));
   return wall;
 }

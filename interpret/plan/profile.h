@@ -63,7 +63,7 @@ struct Profile {
   /// What an operation must not change by more than that.
   Limits limits;
 
-  /// Buildings that adjoin become one (oriel/groups.h).
+  /// Buildings that adjoin become one (generalise/city/city_groups.h).
   struct Groups {
     double gap_mm = 0;           ///< on the map; narrower gaps between them are closed
     double like_height_m = 3;    ///< their roofs differ by no more

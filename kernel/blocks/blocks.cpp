@@ -106,11 +106,8 @@ class PrismBuilder {
     for (std::size_t start = 0; start < is_traced.size(); ++start) {
       if (is_traced[start] != 0 || !is_border(start) || part(start) < 0) continue;
       Loop loop;
-      for (std::size_t h = start; is_traced[h] == 0;) {
-        is_traced[h] = 1;
+      for (const std::size_t h : border_from(plan_, start, is_border, is_traced))
         loop.push_back(plan_.origin(h));
-        for (h = plan_.next(h); !is_border(h);) h = plan_.next(Arrangement::twin(h));
-      }
       part_at_[find(plan_.region(start))] = part(start);
       loops[find(plan_.region(start))].push_back(std::move(loop));
     }

@@ -14,6 +14,9 @@ namespace oriel::detail {
 /// was read from leaves no trace in what is measured on them.
 std::vector<Outline> outlines_of(const Building& building, const Polygon& polygon, double grid_m);
 
+/// The same as they are in the file, on no grid.
+std::vector<Outline> outlines_of(const Building& building, const Polygon& polygon);
+
 /// The points of loops, as of a facet.
 std::vector<Outline> outlines_of(std::span<const Vertex> vertices, const std::vector<Loop>& loops);
 

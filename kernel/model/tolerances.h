@@ -55,6 +55,11 @@ inline constexpr double kPartyWall_m2 = 1e-4;
 inline constexpr double kContact_m = 0.05;
 inline constexpr double kContact_m2 = 0.1;
 
+/// Grids that files have their coordinates on: whole millimetres, or micrometres. A coordinate is
+/// on one if it is off by no more than this share of it, which doubles of 4 km are by far.
+inline constexpr double kMillimetreGrid_m = 1e-3, kMicrometreGrid_m = 1e-6;
+inline constexpr double kOffGrid = 1e-3;
+
 /// An edge runs along the depth of a recess up to this angle (the sine): a millimetre a metre, as
 /// much as welding moves an end.
 inline constexpr double kDepthLean = 1e-3;

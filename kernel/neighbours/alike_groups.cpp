@@ -1,9 +1,9 @@
 #include "kernel/neighbours/alike_groups.h"
 
 #include "kernel/geometry/disjoint_sets.h"
+#include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/neighbours/contacts.h"
-#include "kernel/neighbours/shared_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,17 +22,6 @@ using detail::PlanArea;
 constexpr double kGapLean = 0.1736;
 /// A strip that covers more of a third building's ground does not only touch it.
 constexpr double kCovered_m2 = 0.01;
-/// Coordinates of files have whole millimetres, or micrometres.
-constexpr double kMillimetre_m = 1e-3, kMicrometre_m = 1e-6;
-
-std::vector<PlanArea> ground_in(const StandingBuilding& building, Vec3 origin_m) {
-  const Vec3 moved_m = building.origin_m - origin_m;
-  std::vector<PlanArea> out = building.ground;
-  for (PlanArea& area : out)
-    for (Outline& outline : area)
-      for (Vec3& p : outline) p = {p.x + moved_m.x, p.y + moved_m.y, 0};
-  return out;
-}
 
 double shared_ground_m2(const PlanArea& strip, const std::vector<PlanArea>& ground) {
   double sum_m2 = 0;
@@ -41,17 +30,17 @@ double shared_ground_m2(const PlanArea& strip, const std::vector<PlanArea>& grou
 }
 
 bool is_whole(double value_m, double grid_m) {
-  constexpr double kDust = 1e-3;  // of the grid
   const double steps = value_m / grid_m;
-  return std::abs(steps - std::round(steps)) <= kDust;
+  return std::abs(steps - std::round(steps)) <= kOffGrid;
 }
 
 double grid_of(const std::vector<PlanArea>& areas) {
   for (const PlanArea& area : areas)
     for (const Outline& outline : area)
       for (const Vec3 p : outline)
-        if (!is_whole(p.x, kMillimetre_m) || !is_whole(p.y, kMillimetre_m)) return kMicrometre_m;
-  return kMillimetre_m;
+        if (!is_whole(p.x, kMillimetreGrid_m) || !is_whole(p.y, kMillimetreGrid_m))
+          return kMicrometreGrid_m;
+  return kMillimetreGrid_m;
 }
 
 double rounded_to(double value_m, double grid_m) { return std::round(value_m / grid_m) * grid_m; }
@@ -75,6 +64,10 @@ class GroupFinder {
 
  private:
   [[nodiscard]] const StandingBuilding& at(std::size_t i) const { return search_.buildings()[i]; }
+  /// In a frame with that origin.
+  [[nodiscard]] std::vector<PlanArea> ground_of(std::size_t i, Vec3 origin_m) const {
+    return moved_ground(at(i), at(i).origin_m - origin_m);
+  }
   /// A crack between walls that touch is closed, too.
   [[nodiscard]] double reach_m() const { return std::max(limits_.gap_m, kContact_m); }
 
@@ -98,7 +91,7 @@ class GroupFinder {
   /// In the frame of the first; those that no third building stands in.
   std::vector<PlanArea> strips_between(std::size_t i, std::size_t k) const {
     const Vec3 origin_m = at(i).origin_m;
-    const auto of_i = ground_in(at(i), origin_m), of_k = ground_in(at(k), origin_m);
+    const auto &of_i = at(i).ground, of_k = ground_of(k, origin_m);
     std::vector<PlanArea> strips;
     for (const PlanArea& p : of_i)
       for (const PlanArea& q : of_k)
@@ -109,8 +102,7 @@ class GroupFinder {
 
   [[nodiscard]] bool is_free(const PlanArea& strip, std::size_t i, std::size_t k) const {
     return std::ranges::none_of(search_.near(i, reach_m()), [&](std::size_t third) {
-      return third != k &&
-             shared_ground_m2(strip, ground_in(at(third), at(i).origin_m)) > kCovered_m2;
+      return third != k && shared_ground_m2(strip, ground_of(third, at(i).origin_m)) > kCovered_m2;
     });
   }
 
@@ -122,7 +114,7 @@ class GroupFinder {
     group.ground_m = Box::kInfinity;
     for (const std::size_t member : members) {
       const StandingBuilding& one = at(member);
-      for (PlanArea& area : ground_in(one, origin_m)) areas.push_back(std::move(area));
+      for (PlanArea& area : ground_of(member, origin_m)) areas.push_back(std::move(area));
       const double up_m = one.origin_m.z - origin_m.z;
       group.ground_m2 += one.ground_m2;
       group.ground_m = std::min(group.ground_m, one.ground_m + up_m);

@@ -1,8 +1,8 @@
 #include "kernel/neighbours/contacts.h"
 
 #include "kernel/geometry/boxes.h"
+#include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"
-#include "kernel/neighbours/shared_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,11 +81,8 @@ double common_ground_m2(const StandingBuilding& one, const StandingBuilding& oth
   const double high_m = std::min(one.box.max.z, its.max.z) - std::max(one.box.min.z, its.min.z);
   if (!overlap(one.box, its) || high_m <= kContact_m) return 0;
   double sum_m2 = 0;
-  for (std::vector<Outline> piece : other.ground) {
-    for (Outline& outline : piece)
-      for (Vec3& p : outline) p = {p.x + moved_m.x, p.y + moved_m.y, 0};
+  for (const auto& piece : moved_ground(other, moved_m))
     for (const auto& own : one.ground) sum_m2 += shared_area_m2(own, piece, {0, 0, 1});
-  }
   return sum_m2;
 }
 

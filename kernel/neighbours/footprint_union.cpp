@@ -70,11 +70,9 @@ class UnionTracer {
 
   Outline trace(std::size_t start, std::vector<char>& is_traced) const {
     Outline outline;
-    for (std::size_t h = start; is_traced[h] == 0;) {
-      is_traced[h] = 1;
+    const auto is_its = [&](std::size_t h) { return is_border(h); };
+    for (const std::size_t h : border_from(*plan_, start, is_its, is_traced))
       outline.push_back(pool_.at(plan_->origin(h)));
-      for (h = plan_->next(h); !is_border(h);) h = plan_->next(Arrangement::twin(h));
-    }
     start_at_least(outline);
     return outline;
   }

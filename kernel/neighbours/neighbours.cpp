@@ -3,10 +3,10 @@
 #include "kernel/base/sha256.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/disjoint_sets.h"
+#include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/neighbours/before_wall.h"
 #include "kernel/neighbours/contacts.h"
-#include "kernel/neighbours/shared_area.h"
 
 #include <algorithm>
 #include <array>
@@ -77,14 +77,6 @@ Box box_in_input(const StandingBuilding& building) {
   return building.box.moved(building.origin_m);
 }
 
-std::vector<std::vector<Outline>> moved_ground(const StandingBuilding& building, Vec3 moved_m) {
-  std::vector<std::vector<Outline>> out = building.ground;
-  for (auto& piece : out)
-    for (Outline& outline : piece)
-      for (Vec3& p : outline) p = {p.x + moved_m.x, p.y + moved_m.y, 0};
-  return out;
-}
-
 std::vector<Issue> issues_of(const StandingBuilding& own,
                              const std::vector<BuildingContact>& contacts) {
   std::vector<Issue> out;
@@ -92,7 +84,7 @@ std::vector<Issue> issues_of(const StandingBuilding& own,
     if (contact.overlap_m2 >= kInside * own.ground_m2 && contact.overlap_m2 > kOverlap_m2)
       out.push_back(building_issue(
           Severity::warning, Code::E176, own.id,
-          fmt::format("stands in '{}', which covers all of its ground", contact.building)));
+          fmt::format("stands in '{}', which covers its ground", contact.building)));
     else if (contact.overlap_m2 > kOverlap_m2)
       out.push_back(building_issue(Severity::warning, Code::E175, own.id,
                                    fmt::format("overlaps '{}': both cover {:.2f} m2 of ground",

@@ -1,8 +1,8 @@
 #include "kernel/neighbours/standing_building.h"
 
-#include "kernel/base/index.h"
+#include "kernel/geometry/outlines.h"
+#include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"
-#include "kernel/neighbours/shared_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,22 +21,6 @@ constexpr double kLeastWall_m2 = 0.05;
 constexpr double kSteepRoof = 0.2588;
 /// As kernel/blocks has it.
 constexpr double kGroundOver_m = 0.5;
-
-std::vector<Outline> rings_of(const Building& building, const Polygon& polygon) {
-  std::vector<Outline> out;
-  for (const auto& ring : polygon.rings) {
-    Outline& outline = out.emplace_back();
-    for (const int v : ring) outline.push_back(building.vertices[at(v)]);
-  }
-  return out;
-}
-
-Vec3 doubled_area_of(const Outline& outline) {
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
-  return sum;
-}
 
 Box box_of_outline(const Outline& outline) {
   Box box;
@@ -97,9 +81,9 @@ StandingBuilding standing_building(const Building& building) {
   out.origin_m = building.frame.origin_m;
   std::vector<std::pair<std::vector<Outline>, Vec3>> polygons;
   for (const Polygon& polygon : building.polygons) {
-    auto outlines = rings_of(building, polygon);
+    auto outlines = detail::outlines_of(building, polygon);
     if (outlines.empty() || outlines[0].size() < 3) continue;
-    const Vec3 area = doubled_area_of(outlines[0]);
+    const Vec3 area = area_vector(outlines[0]);
     for (const Vec3 p : outlines[0]) out.box.grow(p);
     if (length(area) > 0) polygons.emplace_back(std::move(outlines), area);
   }
@@ -108,7 +92,7 @@ StandingBuilding standing_building(const Building& building) {
   for (auto& [outlines, area] : polygons) {
     const Vec3 normal = normalised(area);
     if (std::abs(normal.z) <= kPartyWallLean) {
-      if (length(area) / 2 >= kLeastWall_m2) out.walls.push_back({std::move(outlines), normal, {}});
+      if (length(area) >= kLeastWall_m2) out.walls.push_back({std::move(outlines), normal, {}});
       continue;
     }
     if (std::abs(normal.z) < kSteepRoof) continue;
@@ -124,6 +108,14 @@ StandingBuilding standing_building(const Building& building) {
   for (UprightWall& wall : out.walls) wall.box = box_of_outline(wall.outlines[0]);
   out.roof_m = roof_height_m(flats, out.box.is_empty() ? 0 : out.box.max.z);
   take_ground(flats, out);
+  return out;
+}
+
+std::vector<std::vector<Outline>> moved_ground(const StandingBuilding& building, Vec3 moved_m) {
+  std::vector<std::vector<Outline>> out = building.ground;
+  for (auto& piece : out)
+    for (Outline& outline : piece)
+      for (Vec3& p : outline) p = {p.x + moved_m.x, p.y + moved_m.y, 0};
   return out;
 }
 

@@ -37,4 +37,8 @@ struct StandingBuilding {
 /// without area are left out.
 StandingBuilding standing_building(const Building& building);
 
+/// Its ground in another frame, in which its own lies at `moved_m`; z = 0.
+std::vector<std::vector<detail::Outline>> moved_ground(const StandingBuilding& building,
+                                                       Vec3 moved_m);
+
 }  // namespace oriel

@@ -1,7 +1,7 @@
 #include "oriel/pipeline/outlook.h"
 
 #include "kernel/base/index.h"
-#include "kernel/geometry/planar.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/description/surface_table.h"
 
 #include <algorithm>
@@ -67,15 +67,6 @@ Vec3 normal_of(double inclination_deg, double azimuth_deg) {
   return {std::sin(i) * std::sin(a), std::sin(i) * std::cos(a), std::cos(i)};
 }
 
-std::vector<Outline> outlines_of_rings(const Building& building, const Polygon& polygon) {
-  std::vector<Outline> out;
-  for (const auto& ring : polygon.rings) {
-    Outline& outline = out.emplace_back();
-    for (const int v : ring) outline.push_back(building.vertices[at(v)]);
-  }
-  return out;
-}
-
 /// As many digits as a person reads of a share.
 double to_four_digits(double share) { return std::round(share * 1e4) / 1e4; }
 
@@ -138,7 +129,7 @@ void describe_outlook_of_surfaces(const Building& building, std::span<const int>
     const auto azimuth = table.number(at(row), SurfaceAttribute::azimuth);
     if (!inclination || !azimuth || *inclination < kWallFrom_deg || *inclination > kWallTo_deg)
       continue;
-    const auto outlines = outlines_of_rings(building, building.polygons[at(row)]);
+    const auto outlines = detail::outlines_of(building, building.polygons[at(row)]);
     if (outlines.empty() || outlines[0].size() < 3) continue;
     const Vec3 normal = normal_of(*inclination, *azimuth);
     WallOutlook of;

@@ -60,4 +60,19 @@ class Arrangement {
   std::size_t region_count_ = 1;
 };
 
+/// The half-edges of a border in their order, from `start` on, which is one of them; they are
+/// marked in `is_traced`. `is_border(h)` says what the border is, of both half-edges of an edge the
+/// same.
+template <class IsBorder>
+std::vector<std::size_t> border_from(const Arrangement& plan, std::size_t start, IsBorder is_border,
+                                     std::vector<char>& is_traced) {
+  std::vector<std::size_t> border;
+  for (std::size_t h = start; is_traced[h] == 0;) {
+    is_traced[h] = 1;
+    border.push_back(h);
+    for (h = plan.next(h); !is_border(h);) h = plan.next(Arrangement::twin(h));
+  }
+  return border;
+}
+
 }  // namespace oriel::detail

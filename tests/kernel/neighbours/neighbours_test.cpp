@@ -1,7 +1,7 @@
 #include "kernel/neighbours/neighbours.h"
 
 #include "kernel/base/random.h"
-#include "kernel/neighbours/shared_area.h"
+#include "kernel/geometry/shared_area.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "kernel/neighbours/shared_area.h"
+#include "kernel/geometry/shared_area.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
-#include "oriel/groups.h"
+#include "generalise/city/city_groups.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/blocks/simplify_outlines.h"
 #include "kernel/blocks/upright_block.h"
 #include "kernel/geometry/boxes.h"
@@ -7,7 +8,9 @@
 #include "kernel/model/tolerances.h"
 #include "kernel/validate/validate.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,7 +25,7 @@ using detail::PlanArea;
 
 constexpr double kMillimetreOnMap = 1e-3;
 
-/// Courtyards and, of several areas, none but the largest: a group is one building.
+/// The outer outline, and courtyards that are not too small.
 std::vector<Outline> outlines_to_draw(const PlanArea& area, double least_yard_m2) {
   std::vector<Outline> out{area.front()};
   for (std::size_t i = 1; i < area.size(); ++i)
@@ -43,11 +46,8 @@ class Outsiders {
       if (std::ranges::binary_search(group.members, i)) continue;
       const Vec3 moved_m = all[i].origin_m - origin_m;
       boxes_.push_back(all[i].box.moved(moved_m));
-      for (const auto& piece : all[i].ground)
-        for (const Outline& outline : piece) {
-          Outline& flat = outlines_.emplace_back();
-          for (const Vec3 p : outline) flat.push_back({p.x + moved_m.x, p.y + moved_m.y, 0});
-        }
+      for (auto& piece : moved_ground(all[i], moved_m))
+        std::ranges::move(piece, std::back_inserter(outlines_));
     }
   }
 
@@ -165,17 +165,16 @@ std::vector<Issue> CityGroups::issues_of(const Neighbourhood& building) const {
                     id(other)));
   if (group_of_[self] < 0) return issues;
   const DrawnGroup& group = groups_[static_cast<std::size_t>(group_of_[self])];
-  const std::size_t first = group.found.members.front();
+  const std::size_t first = group.found.members.front(), others = group.found.members.size() - 1;
   if (group.solid && first == self)
     add(Severity::note, Code::G421,
-        fmt::format("became one block with {} others", group.found.members.size() - 1));
+        fmt::format("became one block with {}", counted(others, "other")));
   else if (group.solid)
     add(Severity::note, Code::G421, fmt::format("became part of '{}'", id(first)));
   else if (first == self)
     add(Severity::warning, Code::G422,
-        fmt::format("and {} others that adjoin it stay as they were, as they make no valid block: "
-                    "{}",
-                    group.found.members.size() - 1, group.fault));
+        fmt::format("and {} that {} it stay as they were, as they make no valid block: {}",
+                    counted(others, "other"), agreeing(others, "adjoins", "adjoin"), group.fault));
   return issues;
 }
 
