@@ -60,9 +60,18 @@ bool has_file(const fs::path& folder, const std::string& part) {
   });
 }
 
+/// It may have ended; somebody else will wait for it.
+bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == child;
+}
+
 void send_signal(pid_t child, const Surroundings& around) {
-  for (int i = 0; i < 30000 && !has_file(around.watched, around.watched_name); ++i)
+  for (int i = 0; i < 30000 && !has_file(around.watched, around.watched_name); ++i) {
+    if (has_ended(child)) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   ::kill(child, around.signal);
 }
 
