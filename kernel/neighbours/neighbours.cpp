@@ -82,9 +82,9 @@ std::vector<Issue> issues_of(const StandingBuilding& own,
   std::vector<Issue> out;
   for (const BuildingContact& contact : contacts) {
     if (contact.overlap_m2 >= kInside * own.ground_m2 && contact.overlap_m2 > kOverlap_m2)
-      out.push_back(building_issue(
-          Severity::warning, Code::E176, own.id,
-          fmt::format("stands in '{}', which covers its ground", contact.building)));
+      out.push_back(
+          building_issue(Severity::warning, Code::E176, own.id,
+                         fmt::format("stands in '{}', which covers its ground", contact.building)));
     else if (contact.overlap_m2 > kOverlap_m2)
       out.push_back(building_issue(Severity::warning, Code::E175, own.id,
                                    fmt::format("overlaps '{}': both cover {:.2f} m2 of ground",
