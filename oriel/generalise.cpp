@@ -391,13 +391,18 @@ bool has_imprints(const Segmentation& segmentation) {
          segmentation.features.end();
 }
 
+/// Where the solid that is drawn comes from.
+enum class Origin { input, repaired };
+
+/// What is not valid is drawn from a repaired solid, but for one that is repaired already: its
+/// features were found in a solid that is valid.
 GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineResult& result,
-                                  const StageObserver& observer) {
+                                  Origin origin, const StageObserver& observer) {
   GeneralisedBuilding drawn =
       measure(observer, Stage::generalise, [&] { return drawer.draw(result); });
   measure(observer, Stage::write, [&] { drawer.keep_valid(result, drawn); });
   drawer.flag_unfinished(drawn);
-  if (is_invalid(drawn)) drawer.repair(result, drawn);
+  if (is_invalid(drawn) && origin == Origin::input) drawer.repair(result, drawn);
   if (is_invalid(drawn) && has_imprints(*result.segmentation))
     measure(observer, Stage::generalise, [&] { drawer.draw_without_imprints(result, drawn); });
   return drawn;
@@ -408,7 +413,7 @@ GeneralisedBuilding open_drawing(const BuildingDrawer& drawer, const PipelineRes
                                  const StageObserver& observer) {
   auto repaired = drawer.repaired_open(result);
   if (!repaired) return drawer.open();
-  GeneralisedBuilding drawn = valid_drawing(drawer, *repaired, observer);
+  GeneralisedBuilding drawn = valid_drawing(drawer, *repaired, Origin::repaired, observer);
   drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
   if (!drawn.repaired) drawn.repaired = std::move(repaired);
   return drawn;
@@ -478,8 +483,9 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
   return logged(
       "generalised", building,
       [&] {
-        GeneralisedBuilding made = result.is_open ? open_drawing(drawer, result, options.observer)
-                                                  : valid_drawing(drawer, result, options.observer);
+        GeneralisedBuilding made =
+            result.is_open ? open_drawing(drawer, result, options.observer)
+                           : valid_drawing(drawer, result, Origin::input, options.observer);
         if (has_errors(made.issues)) made.levels.clear();
         if (options.groups && result.surroundings) {
           const auto more = options.groups->issues_of(*result.surroundings);
