@@ -5,11 +5,10 @@
 #include "kernel/geometry/outlines.h"
 #include "kernel/segment/boundary/parting.h"
 #include "kernel/segment/cuts/carve.h"
+#include "kernel/segment/cuts/kept_sections.h"
 #include "kernel/segment/cuts/patch.h"
-#include "kernel/segment/sections/edge_index.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <set>
 #include <span>
@@ -49,6 +48,8 @@ class FeatureRemover {
     int lumps = 0;
     for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
     for (int lump = 0; lump < lumps; ++lump) bodies_.push_back(boundary_of(solid, lump, world_));
+    sections_.assign(bodies_.size(),
+                     detail::KeptSections({-1, options.tolerances.weld_m, false, true}));
   }
 
   Remainder run(const std::vector<FeatureId>& asked) {
@@ -57,7 +58,7 @@ class FeatureRemover {
     hosted_.resize(segmentation_.features.size());
     for (int i = 0; i < std::ssize(segmentation_.features); ++i) enter(FeatureId{i});
     const std::vector<Boundary> untouched = bodies_;
-    while (!try_all()) bodies_ = untouched;
+    while (!try_all()) restart(untouched);
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
       if (go_[at(i)]) out_.removed.push_back(FeatureId{i});
     out_.solid = remaining_solid();
@@ -78,6 +79,11 @@ class FeatureRemover {
     const std::size_t first = at(f.source_polygons.front());
     if (first >= starting_at_.size()) starting_at_.resize(first + 1);
     starting_at_[first].push_back(id);
+  }
+
+  void restart(const std::vector<Boundary>& untouched) {
+    bodies_ = untouched;
+    for (detail::KeptSections& kept : sections_) kept.forget();
   }
 
   /// Removes all that is wanted, one after the other. False if something was refused after what
@@ -176,50 +182,34 @@ class FeatureRemover {
   std::optional<std::string> remove_by_section(const Feature& f, PlaneSide split) {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
-    for (Boundary& body : bodies_) {
-      detail::EdgeIndex edges(body, std::array{split >> 1});
-      detail::Section section{split >> 1, looks_along_class ? 1 : -1};
-      section_at(body, section, edges.edges_at(0, section.direction),
-                 {-1, options_.tolerances.weld_m, false, true});
-      const auto region = region_around(section, f);
-      if (!region) continue;
-      const detail::Lump lump = detail::LumpFinder(body, section).find(*region);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const auto cut = sections_[b].find(bodies_[b], split >> 1, looks_along_class ? 1 : -1,
+                                         f.sense == Sense::protrusion, f.cap_point);
+      if (!cut) continue;
+      const detail::Lump& lump = cut->lump;
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0) return "its cut no longer closes";
-      Boundary& trial = copy_of(body);
+      if (cut->caps) return take(b, *cut->caps, true, f);
+      Boundary& trial = copy_of(bodies_[b]);
       std::vector<PointId> touched;
-      const auto caps = imprint(trial, section, lump, touched);
-      return take(body, trial, caps, f);
+      const auto caps = imprint(trial, *cut->section, lump, touched);
+      return take_on_trial(b, caps, std::move(touched), f);
     }
     return "its cut is no longer found";
-  }
-
-  /// The region of the feature's kind with its cap point inside.
-  [[nodiscard]] std::optional<int> region_around(const detail::Section& section,
-                                                 const Feature& f) const {
-    const Vec3 normal = world_.planes.plane(section.plane).normal;
-    for (int r = 0; r < std::ssize(section.regions); ++r) {
-      const detail::Region& region = section.regions[at(r)];
-      if (region.is_material != (f.sense == Sense::protrusion)) continue;
-      std::vector<detail::Outline> shape;
-      for (const int l : region.loops) shape.push_back(detail::outline_of(section, l));
-      if (detail::contains(shape, normal, f.cap_point)) return r;
-    }
-    return std::nullopt;
   }
 
   std::optional<std::string> remove_by_patch(const Feature& f, std::vector<PlaneSide> sides) {
     std::ranges::sort(sides);
     std::int64_t work = 0;
-    for (Boundary& body : bodies_)
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (const detail::Patch& patch : find_patches(
-               body, f.sense == Sense::hole,
+               bodies_[b], f.sense == Sense::hole,
                {{},
                 4,
                 detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg),
                 f.sense == Sense::protrusion},
                work)) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
-        return take(body, copy_of(body), patch.caps, f);
+        return take(b, patch.caps, false, f);
       }
     return "its cut is no longer found";
   }
@@ -250,14 +240,44 @@ class FeatureRemover {
     return *trial_;
   }
 
-  /// Carries out the cut on `trial` and keeps it if nothing goes that is to stay.
-  std::optional<std::string> take(Boundary& body, Boundary& trial,
-                                  const std::vector<detail::CutCap>& caps, const Feature& f) {
-    const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
+  /// Takes the part inside the caps off the body if nothing goes that is to stay. `is_bare`: by
+  /// bare_caps().
+  std::optional<std::string> take(std::size_t b, const std::vector<detail::CutCap>& caps,
+                                  bool is_bare, const Feature& f) {
+    std::optional<std::string> reason = "its cut no longer closes";
+    bool is_told_by_rest = false;
+    const auto accepts = [&](const Boundary& lump) {
+      reason = fault_of(lump, f);
+      is_told_by_rest = !reason && !endangered_by(lump, f).empty();
+      return !reason && !is_told_by_rest;
+    };
+    const auto carved = take_off(bodies_[b], caps, f.sense == Sense::hole, {}, {}, accepts);
+    if (is_told_by_rest) {
+      copy_of(bodies_[b]);
+      return take_on_trial(b, caps, {}, f);
+    }
+    if (carved)
+      sections_[b].take_note(bodies_[b], carved->touched,
+                             is_bare ? std::span(caps) : std::span<const detail::CutCap>());
+    return reason;
+  }
+
+  /// The same on the copy of a body in which the caps are edges already: it takes the body's place.
+  std::optional<std::string> take_on_trial(std::size_t b, const std::vector<detail::CutCap>& caps,
+                                           std::vector<PointId> touched, const Feature& f) {
+    const auto carved = take_off(*trial_, caps, f.sense == Sense::hole, {}, std::move(touched));
     if (!carved) return "its cut no longer closes";
-    if (!is_within(carved->lump, f)) return "its cut would take more than the feature";
-    if (takes_others_along(carved->lump, trial, f)) return "a feature that stays would go with it";
-    std::swap(body, trial);
+    if (auto reason = fault_of(carved->lump, f)) return reason;
+    if (loses_others(carved->lump, *trial_, f)) return "a feature that stays would go with it";
+    std::swap(bodies_[b], *trial_);
+    sections_[b].take_note(bodies_[b], carved->touched, {});
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<std::string> fault_of(const Boundary& lump, const Feature& f) const {
+    if (!is_within(lump, f)) return "its cut would take more than the feature";
+    if (f.sense == Sense::protrusion && holds_cavity(lump))
+      return "a feature that stays would go with it";
     return std::nullopt;
   }
 
@@ -289,17 +309,25 @@ class FeatureRemover {
         for (const int polygon : solid_.facets[source.index()].polygons) visit(polygon);
   }
 
-  /// A feature that is to stay would lose all its surface with the lump, or lies inside it.
-  [[nodiscard]] bool takes_others_along(const Boundary& lump, const Boundary& rest,
-                                        const Feature& f) const {
-    if (f.sense == Sense::protrusion && holds_cavity(lump)) return true;
-    std::set<int> lost = polygons_of(lump);
-    std::vector<const Feature*> endangered;  // nearly always none, so the rest is seldom asked
+  /// The features that are to stay and have surface on the lump, and on the rest if at all: nearly
+  /// always none.
+  [[nodiscard]] std::vector<const Feature*> endangered_by(const Boundary& lump,
+                                                          const Feature& f) const {
+    const std::set<int> lost = polygons_of(lump);
+    std::vector<const Feature*> endangered;
     for (const int polygon : lost)
       for (const FeatureId id : starting_at(polygon))
         if (!go_[id.index()] && !carries(feature(id), f) && has_all(lost, feature(id)))
           endangered.push_back(&feature(id));
+    return endangered;
+  }
+
+  /// A feature that is to stay would lose all its surface with the lump.
+  [[nodiscard]] bool loses_others(const Boundary& lump, const Boundary& rest,
+                                  const Feature& f) const {
+    const auto endangered = endangered_by(lump, f);
     if (endangered.empty()) return false;
+    std::set<int> lost = polygons_of(lump);
     for_each_polygon(rest, [&](int polygon) { lost.erase(polygon); });
     return std::ranges::any_of(endangered,
                                [&](const Feature* other) { return has_all(lost, *other); });
@@ -336,8 +364,11 @@ class FeatureRemover {
   }
 
   std::optional<std::string> fill_cavity(const Feature& f) {
-    for (Boundary& body : bodies_)
-      if (detail::fill_cavity(body, f.box)) return std::nullopt;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (!detail::fill_cavity(bodies_[b], f.box)) continue;
+      sections_[b].forget();
+      return std::nullopt;
+    }
     return "its shell is no longer found";
   }
 
@@ -353,6 +384,7 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
+  std::vector<detail::KeptSections> sections_;  ///< by body
   std::optional<Boundary> trial_;
   std::vector<char> wanted_;                         ///< by feature: asked for and not refused
   std::vector<char> go_;                             ///< by feature: wanted, or sits on what is

@@ -102,9 +102,14 @@ class Remover {
     return is_parted;
   }
 
-  Carved run(FeatureId mark, std::vector<PointId> touched) {
+  /// The lump with its caps; the body stays as it is.
+  const Boundary& make_lump() {
     copier_.add(facets_);
     close_lump();
+    return copier_.boundary();
+  }
+  /// After make_lump().
+  Carved take_off_body(FeatureId mark, std::vector<PointId> touched) {
     touched.reserve(touched.size() + at(copier_.boundary().half_edge_count()) + rim_size_);
     for (const BodyFacetId f : facets_)
       body_.for_each_edge(f, [&](EdgeId e) { touched.push_back(body_.origin(e)); });
@@ -337,10 +342,13 @@ std::vector<CutCap> turned_round(const Boundary& body, std::span<const CutCap> c
 }
 
 std::optional<Carved> take_off(Boundary& body, std::span<const CutCap> caps, bool is_hole,
-                               FeatureId mark, std::vector<PointId> touched) {
+                               FeatureId mark, std::vector<PointId> touched,
+                               const LumpCheck& accepts) {
   Remover remover(body, caps, is_hole);
   if (!remover.find_lump()) return std::nullopt;
-  return remover.run(mark, std::move(touched));
+  const Boundary& lump = remover.make_lump();
+  if (accepts && !accepts(lump)) return std::nullopt;
+  return remover.take_off_body(mark, std::move(touched));
 }
 
 }  // namespace oriel::detail

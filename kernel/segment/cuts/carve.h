@@ -4,6 +4,7 @@
 #include "kernel/segment/cuts/lump.h"
 #include "kernel/segment/sections/section.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -60,6 +61,11 @@ struct Filled {
 std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
                             std::vector<PointId>& touched);
 
+/// The same caps of a lump whose regions cover nothing and are bounded by edges alone, one for each
+/// chord, as those of a window: nothing has to be split. Nothing of any other lump.
+std::optional<std::vector<CutCap>> bare_caps(const Boundary& body, const Section& section,
+                                             const Lump& lump);
+
 /// The caps that take off what the rims leave, instead of the lump inside them. Nothing may be
 /// covered.
 std::vector<CutCap> turned_round(const Boundary& body, std::span<const CutCap> caps);
@@ -69,9 +75,12 @@ std::vector<CutCap> turned_round(const Boundary& body, std::span<const CutCap> c
 /// side out. Caps close both, and facets of the rest are made maximal again. `mark` is left on the
 /// largest cap of the rest.
 ///
-/// Nothing, and the body is as it was, if the rims do not separate a lump.
+/// Nothing, and the body is as it was, if the rims do not separate a lump, or if `accepts` is given
+/// and says no to it.
+using LumpCheck = std::function<bool(const Boundary& lump)>;
 std::optional<Carved> take_off(Boundary& body, std::span<const CutCap> caps, bool is_hole,
-                               FeatureId mark, std::vector<PointId> touched);
+                               FeatureId mark, std::vector<PointId> touched,
+                               const LumpCheck& accepts = {});
 
 /// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
 /// pocket, ascending; `cap`: what closes the rest.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -15,17 +17,62 @@ struct ChordStop {
   double along = 0;
 };
 
-class Imprinter {
-  using Rim = boost::container::small_vector<EdgeId, 32>;
+using Rim = boost::container::small_vector<EdgeId, 32>;
 
+/// +1 on the side that the section looks to, 0 on its plane, -1 on the other side.
+int level_at(const Boundary& body, const Section& section, PointId point) {
+  const int level = body.world().points.side(point, section.plane);
+  return level * section.direction;
+}
+
+/// The edge that a chord is already: it leads from one end of it to the other, and its facet meets
+/// the plane nowhere else, as those of a window do. Invalid: none.
+EdgeId edge_of_chord(const Boundary& body, const Section& section, int c) {
+  const EdgeId begin = section.crossings[at(c)].edge;
+  const EdgeId end = body.twin(section.crossings[at(section.crossings[at(c)].next)].edge);
+  const EdgeId e = body.next(begin);
+  if (body.next(e) != end) return {};
+  int on_plane = 0;
+  body.for_each_edge(body.facet_of(begin), [&](EdgeId f) {
+    on_plane += level_at(body, section, body.origin(f)) == 0 ? 1 : 0;
+  });
+  return on_plane == 2 ? e : EdgeId{};
+}
+
+/// Takes out of a rim what it runs there and back.
+void cancel_spikes(const Boundary& body, Rim& rim) {
+  const auto is_back = [&](std::size_t i) { return i > 0 && body.twin(rim[i - 1]) == rim[i]; };
+  bool has_spike = rim.size() > 1 && body.twin(rim.back()) == rim.front();
+  for (std::size_t i = 0; i < rim.size(); ++i) has_spike = has_spike || is_back(i);
+  if (!has_spike) return;
+  Rim out;
+  for (const EdgeId e : rim) {
+    if (!out.empty() && body.twin(out.back()) == e)
+      out.pop_back();
+    else
+      out.push_back(e);
+  }
+  while (out.size() > 1 && body.twin(out.back()) == out.front()) {
+    out.pop_back();
+    out.erase(out.begin());
+  }
+  rim = std::move(out);
+}
+
+CapLoop cap_loop(const Boundary& body, const Rim& rim) {
+  CapLoop loop;
+  loop.edges.reserve(rim.size());
+  for (const EdgeId e : rim) loop.edges.push_back({e, body.origin(e), body.target(e)});
+  return loop;
+}
+
+class Imprinter {
  public:
   Imprinter(Boundary& body, const Section& section, const Lump& lump, std::vector<PointId>& touched)
       : body_(body),
         section_(section),
         lump_(lump),
         touched_(touched),
-        normal_class_(body.world().planes.class_of(section.plane)),
-        plane_rank_(body.world().planes.rank_of(section.plane)),
         axis_(body.world().planes.normal(section.looking())) {}
 
   std::vector<CutCap> run() {
@@ -36,7 +83,7 @@ class Imprinter {
       const Region& region = section_.regions[at(r)];
       CutCap cap{section_.split_side(region), {}, region.covered};
       for (const int l : region.loops) {
-        CapLoop loop{rim_of(l)};
+        CapLoop loop = rim_of(l);
         if (!loop.edges.empty()) cap.loops.push_back(std::move(loop));
       }
       if (!cap.loops.empty()) caps.push_back(std::move(cap));
@@ -46,11 +93,7 @@ class Imprinter {
   }
 
  private:
-  [[nodiscard]] int level(PointId point) const {
-    const int difference =
-        (body_.world().points.rank(point, normal_class_) - plane_rank_) * section_.direction;
-    return (difference > 0) - (difference < 0);
-  }
+  [[nodiscard]] int level(PointId point) const { return level_at(body_, section_, point); }
 
   template <class Visit>
   void for_each_crossing(Visit visit) {
@@ -77,18 +120,7 @@ class Imprinter {
     });
   }
 
-  /// The edge that a chord is already: it leads from one end of it to the other, and its facet
-  /// meets the plane nowhere else, as those of a window do. Invalid: none.
-  [[nodiscard]] EdgeId edge_of(int c) const {
-    const EdgeId begin = section_.crossings[at(c)].edge;
-    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
-    const EdgeId e = body_.next(begin);
-    if (body_.next(e) != end) return {};
-    int on_plane = 0;
-    body_.for_each_edge(body_.facet_of(begin),
-                        [&](EdgeId f) { on_plane += level(body_.origin(f)) == 0 ? 1 : 0; });
-    return on_plane == 2 ? e : EdgeId{};
-  }
+  [[nodiscard]] EdgeId edge_of(int c) const { return edge_of_chord(body_, section_, c); }
 
   /// For every facet that a chord may split: its corners on the plane that touch it from the other
   /// side, along the line.
@@ -116,7 +148,7 @@ class Imprinter {
   }
 
   /// The rim of a loop, chord by chord, without stretches that it runs there and back.
-  std::vector<CapEdge> rim_of(int l) {
+  CapLoop rim_of(int l) {
     Rim rim;
     int c = section_.loops[at(l)].first;
     do {
@@ -126,11 +158,8 @@ class Imprinter {
         add_chord(c, rim);
       c = section_.crossings[at(c)].next;
     } while (c != section_.loops[at(l)].first);
-    cancel_spikes(rim);
-    std::vector<CapEdge> edges;
-    edges.reserve(rim.size());
-    for (const EdgeId e : rim) edges.push_back({e, body_.origin(e), body_.target(e)});
-    return edges;
+    cancel_spikes(body_, rim);
+    return cap_loop(body_, rim);
   }
 
   /// Makes the chord from crossing c an edge of the body, and adds its upper half-edges to the rim.
@@ -188,31 +217,10 @@ class Imprinter {
     return upper;
   }
 
-  void cancel_spikes(Rim& rim) const {
-    const auto is_back = [&](std::size_t i) { return i > 0 && body_.twin(rim[i - 1]) == rim[i]; };
-    bool has_spike = rim.size() > 1 && body_.twin(rim.back()) == rim.front();
-    for (std::size_t i = 0; i < rim.size(); ++i) has_spike = has_spike || is_back(i);
-    if (!has_spike) return;
-    Rim out;
-    for (const EdgeId e : rim) {
-      if (!out.empty() && body_.twin(out.back()) == e)
-        out.pop_back();
-      else
-        out.push_back(e);
-    }
-    while (out.size() > 1 && body_.twin(out.back()) == out.front()) {
-      out.pop_back();
-      out.erase(out.begin());
-    }
-    rim = std::move(out);
-  }
-
   Boundary& body_;
   const Section& section_;
   const Lump& lump_;
   std::vector<PointId>& touched_;
-  int normal_class_;
-  int plane_rank_;
   Vec3 axis_;
   std::map<BodyFacetId, boost::container::small_vector<ChordStop, 4>> corners_;
   std::map<BodyFacetId, boost::container::small_vector<EdgeId, 8>>
@@ -224,6 +232,30 @@ class Imprinter {
 std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
                             std::vector<PointId>& touched) {
   return Imprinter(body, section, lump, touched).run();
+}
+
+std::optional<std::vector<CutCap>> bare_caps(const Boundary& body, const Section& section,
+                                             const Lump& lump) {
+  std::vector<CutCap> caps;
+  for (const int r : lump.regions) {
+    const Region& region = section.regions[at(r)];
+    if (!region.covered.empty()) return std::nullopt;
+    CutCap& cap = caps.emplace_back(CutCap{section.split_side(region), {}, {}});
+    for (const int l : region.loops) {
+      Rim rim;
+      int c = section.loops[at(l)].first;
+      do {
+        const EdgeId e = edge_of_chord(body, section, c);
+        if (!e.is_valid()) return std::nullopt;
+        rim.push_back(e);
+        c = section.crossings[at(c)].next;
+      } while (c != section.loops[at(l)].first);
+      cancel_spikes(body, rim);
+      if (rim.empty()) return std::nullopt;
+      cap.loops.push_back(cap_loop(body, rim));
+    }
+  }
+  return caps;
 }
 
 }  // namespace oriel::detail
