@@ -1,6 +1,7 @@
 #include "generalise/invariants/fineness.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -27,20 +28,43 @@ constexpr double kRounding_m = 1e-6;  // tolerance of doubles
 
 using detail::Outline;
 
-FeatureId smallest_around(const Segmentation& segmentation, const std::vector<FeatureId>& removed,
-                          Vec3 p, Vec3 q) {
-  FeatureId best;
-  double least_m = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < std::ssize(segmentation.features); ++i) {
-    const Box& box = segmentation.features[at(i)].box;
-    const double size_m = length(box.max - box.min);
-    if (size_m >= least_m || !contains(box, p, kOnBox_m) || !contains(box, q, kOnBox_m)) continue;
-    if (std::ranges::binary_search(removed, FeatureId{i})) continue;
-    best = FeatureId{i};
-    least_m = size_m;
+/// The boxes of the features that are not removed.
+class OwnerBoxes {
+ public:
+  OwnerBoxes(const Segmentation& segmentation, const std::vector<FeatureId>& removed)
+      : segmentation_(segmentation), owners_(left_of(segmentation, removed)), tree_(boxes()) {}
+
+  /// The feature with the smallest box around both points, of equal ones the first; or none.
+  [[nodiscard]] FeatureId smallest_around(Vec3 p, Vec3 q) const {
+    std::pair best{std::numeric_limits<double>::infinity(), FeatureId{}};
+    tree_.search(
+        [&](const Box& box) { return contains(box, p, kOnBox_m) && contains(box, q, kOnBox_m); },
+        [&](int i) {
+          const Box& box = segmentation_.features[owners_[at(i)].index()].box;
+          best = std::min(best, {length(box.max - box.min), owners_[at(i)]});
+        });
+    return best.second;
   }
-  return best;
-}
+
+ private:
+  static std::vector<FeatureId> left_of(const Segmentation& segmentation,
+                                        const std::vector<FeatureId>& removed) {
+    std::vector<FeatureId> left;
+    for (int i = 0; i < std::ssize(segmentation.features); ++i)
+      if (!std::ranges::binary_search(removed, FeatureId{i})) left.push_back(FeatureId{i});
+    return left;
+  }
+  [[nodiscard]] std::vector<Box> boxes() const {
+    std::vector<Box> boxes;
+    boxes.reserve(owners_.size());
+    for (const FeatureId id : owners_) boxes.push_back(segmentation_.features[id.index()].box);
+    return boxes;
+  }
+
+  const Segmentation& segmentation_;
+  std::vector<FeatureId> owners_;
+  detail::BoxTree tree_;
+};
 
 /// Adds those edges of a facet that are shorter than asked for; `is_wanted` of two vertices.
 template <class IsWanted>
@@ -66,28 +90,36 @@ std::vector<ShortEdge> edges_below(const Solid& solid, double least_m) {
 
 void find_owners(std::vector<ShortEdge>& edges, const Segmentation& segmentation,
                  const std::vector<FeatureId>& removed) {
-  for (ShortEdge& edge : edges)
-    edge.feature = smallest_around(segmentation, removed, edge.from, edge.to);
+  if (edges.empty()) return;
+  const OwnerBoxes owners(segmentation, removed);
+  for (ShortEdge& edge : edges) edge.feature = owners.smallest_around(edge.from, edge.to);
 }
 
-/// The corners of a solid, sorted, to find again what stays where it was.
+/// The corners of a solid, to find again what stays where it was: sorted along a direction that no
+/// wall or row of windows is likely to stand across, so that few are at the same place of it.
 class SolidCorners {
  public:
   explicit SolidCorners(const Solid& solid) {
     for (const Facet& facet : solid.facets)
       for (const Loop& loop : facet.loops)
         for (const int v : loop) points_.push_back(solid.vertices[at(v)].point);
-    std::ranges::sort(points_, {}, &Vec3::x);
+    std::ranges::sort(points_, {}, along);
   }
 
   [[nodiscard]] bool has(Vec3 p) const {
-    auto next = std::ranges::lower_bound(points_, p.x - kOnBox_m, {}, &Vec3::x);
-    for (; next != points_.end() && next->x <= p.x + kOnBox_m; ++next)
+    constexpr double kReach_m = kOnBox_m + kRounding_m;
+    auto next = std::ranges::lower_bound(points_, along(p) - kReach_m, {}, along);
+    for (; next != points_.end() && along(*next) <= along(p) + kReach_m; ++next)
       if (length(*next - p) <= kOnBox_m) return true;
     return false;
   }
 
  private:
+  static double along(Vec3 p) {
+    constexpr Vec3 kAskew{0.48, 0.64, 0.6};  // of length 1
+    return dot(kAskew, p);
+  }
+
   std::vector<Vec3> points_;
 };
 
@@ -286,6 +318,7 @@ std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segme
   for (const Facet& facet : solid.facets)
     by_normal[solid.planes[facet.plane.index()].coefficients].push_back(sheet_of(solid, facet));
   std::vector<NarrowGap> gaps;
+  const OwnerBoxes owners(segmentation, removed);
   for (const auto& [normal, sheets] : by_normal) {
     const std::array<std::int64_t, 3> back{-normal[0], -normal[1], -normal[2]};
     const auto opposite = by_normal.find(back);
@@ -298,7 +331,7 @@ std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segme
         if (!where) where = point_over(other, one);
         if (!where) where = crossing(one, other);
         if (!where) continue;
-        gaps.push_back({*where, width_m, smallest_around(segmentation, removed, *where, *where)});
+        gaps.push_back({*where, width_m, owners.smallest_around(*where, *where)});
       }
   }
   return gaps;
