@@ -32,6 +32,8 @@ class Flattener {
 
  private:
   void add(const MeshPolygon& polygon) {
+    // Without a normal it has no area.
+    if (polygon.normal == Vec3{}) return;
     const auto triangles = detail::triangulate(source_.points, polygon.rings, polygon.normal);
     if (triangles.empty()) return;
     const std::uint32_t feature = row_of(polygon);

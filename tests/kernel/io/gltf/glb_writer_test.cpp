@@ -195,6 +195,15 @@ TEST_SUITE("kernel/io") {
     CHECK_FALSE(glb.head().contains("meshes"));
   }
 
+  TEST_CASE("polygons without area are left out, as their normal has no direction") {
+    MeshSource source = wall_with_window();
+    source.points.push_back(kPlace + Vec3{2, 0, 0});
+    source.polygons.push_back({{{0, 8, 1}}, {}, 0, "RoofSurface"});
+    const GlbReader glb(write_glb(source));
+    CHECK(glb.points().size() == 12);
+    CHECK(glb.rows().size() == 2);
+  }
+
   TEST_CASE("a mesh of more than 65,535 points has long indices") {
     MeshSource source;
     source.features = {{"city", "roof", ""}};
