@@ -8,8 +8,11 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <memory>
+#include <optional>
 #include <queue>
-#include <set>
+#include <ranges>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,43 +22,7 @@ namespace oriel {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
-/// The loops of a facet by their points, however they are numbered and wherever they begin.
-using FacetForm = std::set<std::vector<std::array<double, 3>>>;
-
-FacetForm form_of(const Solid& solid, const Facet& facet) {
-  FacetForm form;
-  for (const Loop& loop : facet.loops) {
-    std::vector<std::array<double, 3>> points;
-    for (const int v : loop) {
-      const Vec3 p = solid.vertices[at(v)].point;
-      points.push_back({p.x, p.y, p.z});
-    }
-    std::ranges::rotate(points, std::ranges::min_element(points));
-    form.insert(std::move(points));
-  }
-  return form;
-}
-
-std::set<FacetForm> forms_of(const Solid& solid) {
-  std::set<FacetForm> forms;
-  for (const Facet& facet : solid.facets) forms.insert(form_of(solid, facet));
-  return forms;
-}
-
-/// The triangles of the facets that `is_asked` says yes to.
-template <class IsAsked>
-std::vector<Corners> triangles_of(const Solid& solid, const IsAsked& is_asked) {
-  std::vector<Vec3> points;
-  for (const Vertex& vertex : solid.vertices) points.push_back(vertex.point);
-  std::vector<Corners> out;
-  for (const Facet& facet : solid.facets) {
-    if (!is_asked(facet)) continue;
-    const Vec3 normal = solid.planes[facet.plane.index()].normal;
-    for (const auto& [a, b, c] : detail::triangulate(points, facet.loops, normal))
-      out.push_back({points[at(a)], points[at(b)], points[at(c)]});
-  }
-  return out;
-}
+using Ring = std::vector<std::array<double, 3>>;
 
 /// Of a point from a segment.
 Vec3 nearest_on_segment(Vec3 p, Vec3 a, Vec3 b) {
@@ -86,6 +53,10 @@ double distance_to(Vec3 p, const Box& box) {
                  beyond(p.z, box.min.z, box.max.z)});
 }
 
+}  // namespace
+
+namespace detail {
+
 /// A surface to which distances are measured.
 class MeasuredSurface {
  public:
@@ -110,6 +81,7 @@ class MeasuredSurface {
     return best;
   }
   [[nodiscard]] const Corners& triangle(std::size_t number) const { return triangles_[number]; }
+  [[nodiscard]] const std::vector<Corners>& triangles() const { return triangles_; }
 
  private:
   static std::vector<Box> boxes_of(const std::vector<Corners>& triangles) {
@@ -120,8 +92,14 @@ class MeasuredSurface {
   }
 
   std::vector<Corners> triangles_;
-  detail::BoxTree tree_;
+  BoxTree tree_;
 };
+
+}  // namespace detail
+
+namespace {
+
+using detail::MeasuredSurface;
 
 /// Looks for the point of some triangles that is farthest from a surface.
 class FarthestPoint {
@@ -131,18 +109,13 @@ class FarthestPoint {
       : surface_(surface), error_m_(error_m), greatest_(known) {}
 
   double find(const std::vector<Corners>& triangles) {
-    std::size_t near = 0;
-    std::vector<Probes> all;
+    for (const Corners& triangle : triangles) probe(triangle[0]);
     for (const Corners& triangle : triangles) {
-      Probes probes;
-      for (std::size_t i = 0; i < 3; ++i) {
-        probes[i] = surface_.probe(triangle[i], near);
-        near = probes[i].nearest;
-        greatest_ = std::max(greatest_, probes[i].distance);
-      }
-      all.push_back(probes);
+      const double way =
+          std::max(length(triangle[1] - triangle[0]), length(triangle[2] - triangle[0]));
+      if (probe(triangle[0]).distance + way > greatest_ + error_m_)
+        push({probe(triangle[0]), probe(triangle[1]), probe(triangle[2])});
     }
-    for (const Probes& probes : all) push(probes);
     while (!waiting_.empty() && waiting_.top().most > greatest_ + error_m_) {
       const Probes probes = waiting_.top().probes;
       waiting_.pop();
@@ -161,6 +134,16 @@ class FarthestPoint {
       return std::tie(most, other.number) < std::tie(other.most, number);
     }
   };
+
+  /// Of a corner, which several triangles have.
+  const MeasuredSurface::Probe& probe(Vec3 corner) {
+    const auto [found, is_new] = known_.try_emplace({corner.x, corner.y, corner.z});
+    if (!is_new) return found->second;
+    found->second = surface_.probe(corner, near_);
+    near_ = found->second.nearest;
+    greatest_ = std::max(greatest_, found->second.distance);
+    return found->second;
+  }
 
   void push(const Probes& probes) {
     const double most = most_of(probes);
@@ -198,25 +181,104 @@ class FarthestPoint {
   double error_m_;
   double greatest_;
   std::size_t pushed_ = 0;
+  std::size_t near_ = 0;  ///< where the last corner was near
+  std::map<std::array<double, 3>, MeasuredSurface::Probe> known_;
   std::priority_queue<TrianglePiece> waiting_;
 };
 
 }  // namespace
 
-double level_distance_m(const Solid& a, const Solid& b, double error_m) {
-  const std::set<FacetForm> forms_a = forms_of(a), forms_b = forms_of(b);
-  const auto all = [](const Facet&) { return true; };
+struct LevelSurface::Parts {
+  /// A facet by its points, however they are numbered and wherever its rings begin.
+  struct FacetForm {
+    Ring outer;
+    std::map<Ring, const Loop*> holes;
+  };
+
+  explicit Parts(Solid level) : solid(std::move(level)) {
+    for (const Vertex& vertex : solid.vertices) points.push_back(vertex.point);
+    std::vector<Corners> triangles;
+    for (const Facet& facet : solid.facets) {
+      forms.push_back(form_of(facet));
+      facet_at.emplace(forms.back().outer, forms.size() - 1);
+      first_triangle.push_back(triangles.size());
+      triangulate(facet, facet.loops, triangles);
+    }
+    first_triangle.push_back(triangles.size());
+    surface.emplace(std::move(triangles));
+  }
+
+  /// Triangles that cover all that may not lie on `other`.
+  [[nodiscard]] std::vector<Corners> triangles_beyond(const Parts& other) const {
+    std::vector<Corners> out;
+    for (std::size_t f = 0; f < forms.size(); ++f) {
+      const auto same = other.facet_at.find(forms[f].outer);
+      if (same != other.facet_at.end() && add_holes(forms[f], other, same->second, out)) continue;
+      const auto all = surface->triangles().begin();
+      out.insert(out.end(), all + static_cast<std::ptrdiff_t>(first_triangle[f]),
+                 all + static_cast<std::ptrdiff_t>(first_triangle[f + 1]));
+    }
+    return out;
+  }
+
+  Solid solid;
+  std::vector<Vec3> points{};
+  std::vector<FacetForm> forms{};             ///< parallel to the facets
+  std::vector<std::size_t> first_triangle{};  ///< of each facet, and behind the last
+  std::map<Ring, std::size_t> facet_at{};     ///< by outer ring
+  std::optional<MeasuredSurface> surface{};
+
+ private:
+  [[nodiscard]] FacetForm form_of(const Facet& facet) const {
+    FacetForm form;
+    for (const Loop& loop : facet.loops) {
+      Ring ring;
+      for (const int v : loop) ring.push_back({points[at(v)].x, points[at(v)].y, points[at(v)].z});
+      std::ranges::rotate(ring, std::ranges::min_element(ring));
+      if (&loop == &facet.loops.front())
+        form.outer = std::move(ring);
+      else
+        form.holes.emplace(std::move(ring), &loop);
+    }
+    return form;
+  }
+
+  /// What a facet has that another one with the same outer ring lacks: holes of that one. False if
+  /// it has holes of its own besides, which may reach into those.
+  static bool add_holes(const FacetForm& form, const Parts& other, std::size_t number,
+                        std::vector<Corners>& out) {
+    const auto& holes = other.forms[number].holes;
+    const auto own_rings = form.holes | std::views::keys, rings = holes | std::views::keys;
+    if (std::ranges::includes(own_rings, rings)) return true;
+    if (!std::ranges::includes(rings, own_rings)) return false;
+    for (const auto& [ring, loop] : holes)
+      if (!form.holes.contains(ring))
+        other.triangulate(other.solid.facets[number], {Loop(loop->rbegin(), loop->rend())}, out);
+    return true;
+  }
+
+  void triangulate(const Facet& facet, const std::vector<Loop>& loops,
+                   std::vector<Corners>& out) const {
+    const Vec3 normal = solid.planes[facet.plane.index()].normal;
+    for (const auto& [a, b, c] : detail::triangulate(points, loops, normal))
+      out.push_back({points[at(a)], points[at(b)], points[at(c)]});
+  }
+};
+
+LevelSurface::LevelSurface(Solid level) : parts_(std::make_shared<const Parts>(std::move(level))) {}
+
+double level_distance_m(const LevelSurface& a, const LevelSurface& b, double error_m) {
   double distance_m = 0;
-  for (const auto& [from, to, known] :
-       {std::tuple(&a, &b, &forms_b), std::tuple(&b, &a, &forms_a)}) {
-    const auto changed = triangles_of(*from, [&, from = from, known = known](const Facet& facet) {
-      return !known->contains(form_of(*from, facet));
-    });
-    if (changed.empty()) continue;
-    const MeasuredSurface surface(triangles_of(*to, all));
-    distance_m = FarthestPoint(surface, error_m, distance_m).find(changed);
+  for (const auto& [from, to] : {std::pair(&*a.parts_, &*b.parts_), {&*b.parts_, &*a.parts_}}) {
+    const auto changed = from->triangles_beyond(*to);
+    if (!changed.empty())
+      distance_m = FarthestPoint(*to->surface, error_m, distance_m).find(changed);
   }
   return distance_m;
+}
+
+double level_distance_m(const Solid& a, const Solid& b, double error_m) {
+  return level_distance_m(LevelSurface(a), LevelSurface(b), error_m);
 }
 
 }  // namespace oriel
