@@ -30,7 +30,7 @@ struct LeveledBuilding {
   /// It is drawn from a repaired solid: folded facets are parted, and each level judged by itself.
   bool is_repaired = false;
   std::vector<SeriesLevel> levels{};
-  std::unique_ptr<FiringScales> firing{};
+  std::unique_ptr<FiringScales> firing{};  ///< none if only levels are asked for
   FaultyImprints undrawn{};
   std::vector<Issue> issues{};  ///< of its levels
   /// Of the building as it came, before anything is done for a scale.
@@ -227,7 +227,8 @@ class SeriesDrawer {
     if (!levels.value) return;
     one.levels = std::move(*levels.value);
     check(one);
-    one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
+    if (!options_.has_only_levels)
+      one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
   }
 
   /// A level that is not valid as it is written is an error; the building as it came need not be,
@@ -260,9 +261,10 @@ class SeriesDrawer {
     BuildingSeries building{one.building->id, frame, one.labelled.attributes, {}, {}};
     for (const Installation& installation : one.labelled.installations)
       building.installations.push_back(installation.id);
+    const Placer place = [&](Vec3 local_m) { return grid.place(local_m, frame); };
     try {
-      building.series = scale_series(input_of(one), one.levels, *one.firing,
-                                     [&](Vec3 local_m) { return grid.place(local_m, frame); });
+      building.series = one.firing ? scale_series(input_of(one), one.levels, *one.firing, place)
+                                   : level_series(one.levels, place);
     } catch (const DoubledFacet& fault) {
       out.issues.push_back(doubled(*one.building, fault));
       return;

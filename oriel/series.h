@@ -46,6 +46,9 @@ struct Series {
 struct SeriesOptions : LabelOptions {
   /// What to do with features that the pack has no entry for.
   std::optional<Profile> profile;
+  /// Only the levels are asked for, so that one operation without a feature leads from each to the
+  /// next, which is quicker.
+  bool has_only_levels = false;
 };
 
 /// The series of a record for `scales` (denominators, which ascend): every level a valid solid, the

@@ -50,10 +50,14 @@ class TileLevels {
   void add(const LabelledBuilding& level) {
     FlatMesh mesh = mesh_of(building_, level, colours_);
     const bool is_new = out_.meshes.empty() || out_.meshes.back() != mesh;
-    if (!out_.mesh_at.empty()) out_.error_m.push_back(is_new ? distance(level) : 0);
+    std::optional<LevelSurface> surface;
+    if (is_new && level.geometry) surface.emplace(*level.geometry);
+    if (!out_.mesh_at.empty())
+      out_.error_m.push_back(last_ && surface ? level_distance_m(*last_, *surface, kDistance_m)
+                                              : 0);
     if (is_new) {
       out_.meshes.push_back(std::move(mesh));
-      last_ = level.geometry;
+      last_ = std::move(surface);
     }
     out_.mesh_at.push_back(static_cast<std::uint32_t>(out_.meshes.size()) - 1);
   }
@@ -61,21 +65,18 @@ class TileLevels {
   TileBuilding take() { return std::move(out_); }
 
  private:
-  [[nodiscard]] double distance(const LabelledBuilding& level) const {
-    if (!last_ || !level.geometry) return 0;
-    return level_distance_m(*last_, *level.geometry, kDistance_m);
-  }
-
   const Building& building_;
   const FaceColours& colours_;
   TileBuilding out_;
-  std::optional<Solid> last_;
+  std::optional<LevelSurface> last_;
 };
 
 }  // namespace
 
-std::vector<TileBuilding> tile_buildings(const Document& document, const Series& made,
-                                         const std::vector<double>& scales, bool has_colours) {
+std::vector<TileBuilding> tile_buildings(const Document& document,
+                                         const std::vector<PipelineResult>& results,
+                                         const Series& made, const std::vector<double>& scales,
+                                         bool has_colours) {
   std::vector<OutputRecord> levels;
   for (const double scale : scales) {
     levels.push_back(at(made, scale));
@@ -88,6 +89,7 @@ std::vector<TileBuilding> tile_buildings(const Document& document, const Series&
   const auto colours = has_colours ? material_colours(document)
                                    : std::vector<FaceColours>(document.buildings.size());
   for (std::size_t b = 0; b < document.buildings.size(); ++b) {
+    if (results[b].is_passed_over) continue;
     const Building& building = document.buildings[b];
     TileLevels tile(building, colours[b]);
     const auto found = drawn.find(building.id);

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -27,19 +29,33 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBuildingsName = "buildings.part";
 constexpr const char* kTilesetName = "tileset.json";
+constexpr const char* kTilesName = "tiles";
 constexpr const char* kPageName = "index.html";
 
-/// What a run may leave in its folder: the tiles it has made, and the buildings, under whatever
-/// name for the time being.
-bool is_leftover(const std::string& name) {
-  return name == "tiles" || name.starts_with(kBuildingsName) ||
-         name.starts_with(std::string(kTilesetName) + ".");
+/// What a run may leave in its folder: the tiles it has made, the buildings, under whatever name
+/// for the time being, and the page.
+bool is_leftover(const fs::path& path) {
+  const std::string name = path.filename();
+  if (name == kPageName) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {}) == tiles_page();
+  }
+  return name == kTilesName || name.starts_with(kBuildingsName) ||
+         name.starts_with(std::string(kTilesetName) + ".") ||
+         name.starts_with(std::string(kPageName) + ".");
 }
 
 class Tiler final : public ProducingCommand {
  public:
   Tiler(const TilesArguments& arguments, const RuleBase& rules, BatchRunner& runner, Report& report)
       : arguments_(arguments), rules_(rules), runner_(runner), report_(report) {}
+  /// Nothing is left of a run that came to nothing, but for what it may go on with.
+  ~Tiler() override {
+    file_.reset();
+    if (has_made_folder_) remove(arguments_.folder);  // which fails if anything is in it
+  }
+  Tiler(const Tiler&) = delete;
+  Tiler& operator=(const Tiler&) = delete;
 
   void name_files(NamedFiles& files) const override {
     files.add_input("--rules", arguments_.rules);
@@ -56,12 +72,13 @@ class Tiler final : public ProducingCommand {
     SeriesOptions options;
     static_cast<LabelOptions&>(options) = arguments_.label_options(timings.observer());
     options.profile = arguments_.profile;
+    options.has_only_levels = true;
     const std::vector<double>& scales = arguments_.tileset.scales;
     const Series made = series(document, results, rules_, scales, options);
     product.issues = made.issues;
     timings.measure(Stage::write, [&] {
       for (const TileBuilding& building :
-           tile_buildings(document, made, scales, has_material_colours()))
+           tile_buildings(document, results, made, scales, has_material_colours()))
         product[OutputPart::buildings] += to_bytes(building);
     });
     return product;
@@ -128,15 +145,19 @@ class Tiler final : public ProducingCommand {
   /// Asks for no memory, which may be used up. If it cannot go it is in nobody's way.
   static void remove(const std::string& path) { std::remove(path.c_str()); }
 
-  /// What this run has made; a folder only if nothing is in it.
+  /// What this run has made of the buildings in `path`, and these.
   void remove_all(const std::string& path) const {
     remove(path);
-    if (has_made_folder_) remove(arguments_.folder);
+    if (arguments_.has_viewer) remove(path_of(kPageName));
+    std::error_code error;
+    fs::remove_all(fs::path(arguments_.folder) / kTilesName, error);
   }
 
   void write_from(const std::string& path) {
     const TileBuildings buildings(path);
     if (buildings.entries().empty()) return;
+    // The tileset comes last: a folder that has one is whole.
+    if (arguments_.has_viewer) write_file(path_of(kPageName), tiles_page());
     auto written = write_tileset(arguments_.folder, buildings, arguments_.tileset);
     if (!written.value) {
       const Issue reason = std::move(written.issues.back());
@@ -144,7 +165,6 @@ class Tiler final : public ProducingCommand {
       report_.add(written.issues);
       throw InputError(reason);
     }
-    if (arguments_.has_viewer) write_file(path_of(kPageName), tiles_page());
     report_.add(written.issues);
     for (const Issue& issue : written.issues)
       if (issue.severity == Severity::error) runner_.set_aside(issue);
@@ -180,11 +200,11 @@ void check_tiles_folder(const TilesArguments& arguments) {
   if (goes_on) return;
   const bool is_free = std::ranges::all_of(
       fs::directory_iterator(folder, error),
-      [](const fs::directory_entry& entry) { return is_leftover(entry.path().filename()); });
+      [](const fs::directory_entry& entry) { return is_leftover(entry.path()); });
   if (!is_free)
     refuse_usage("-o", Code::E164,
                  printable(arguments.folder) + " is not empty: name another folder");
-  fs::remove_all(folder / "tiles", error);
+  fs::remove_all(folder / kTilesName, error);
 }
 
 ExitCode write_tiles(const TilesArguments& arguments, const RuleBase& rules, Report& report) {

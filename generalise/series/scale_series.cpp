@@ -383,6 +383,23 @@ ScaleSeries scale_series(const SeriesInput& input, const std::vector<SeriesLevel
   return series;
 }
 
+ScaleSeries level_series(const std::vector<SeriesLevel>& levels, const Placer& place) {
+  ScaleSeries series;
+  series.finest = level_state(levels[0].redrawn.labelled, place);
+  LevelState state = series.finest;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    LevelState next = level_state(levels[i].redrawn.labelled, place);
+    SeriesOperation& operation = series.operations.emplace_back();
+    operation.building = state.building;
+    operation.scale = levels[i].scale;
+    operation.forward = difference(state, next);
+    operation.inverse = difference(next, state);
+    operation.aabb_m = box_of(operation.forward);
+    state = std::move(next);
+  }
+  return series;
+}
+
 LevelState state_at(const ScaleSeries& series, double scale) {
   LevelState state = series.finest;
   if (!move_state(state, series.operations, 0, scale))

@@ -44,6 +44,10 @@ class FiringScales {
 ScaleSeries scale_series(const SeriesInput& input, const std::vector<SeriesLevel>& levels,
                          const FiringScales& firing, const Placer& place);
 
+/// The same levels without the elementary operations between them, which take long to find: one
+/// operation without a feature leads from each level to the next. Throws DoubledFacet.
+ScaleSeries level_series(const std::vector<SeriesLevel>& levels, const Placer& place);
+
 /// The state of `series` at 1 : scale.
 LevelState state_at(const ScaleSeries& series, double scale);
 

@@ -228,6 +228,48 @@ TEST_SUITE("cli") {
     CHECK(root["metadata"]["properties"]["buildings"] == 3);
   }
 
+  TEST_CASE("buildings of a file that are not selected are in no tile") {
+    const Folder folder;
+    const std::string file = folder.write("in.city.json", cubes({"a", "b", "c"}).dump());
+    const Outcome made =
+        run({"tiles", file, "-o", folder / "tiles", "--crs", "local", "--id", "b"});
+    CHECK(made.exit == 0);
+    for_each_tile(tileset_of(folder / "tiles")["root"], [&](const json& tile) {
+      for (const GlbRow& row : content_of(folder / "tiles", tile).rows())
+        CHECK(row.building == "b");
+    });
+  }
+
+  TEST_CASE("on a full disk a tileset is an error, and nothing of it is left") {
+    const Folder folder;
+    const std::string file = folder.write("in.city.json", cubes({"a", "b"}).dump());
+    // The buildings, a tile, and the page do not fit.
+    for (const unsigned limit : {1000U, 4000U, 100'000U}) {
+      CAPTURE(limit);
+      const std::vector<std::string> call{"tiles", file, "-o", folder / "tiles", "--viewer"};
+      const Outcome full = run(call, {.file_limit = limit});
+      CHECK(full.exit == 6);
+      CHECK(full.says("E601"));
+      CHECK(folder.names() == std::vector<std::string>{"in.city.json"});
+    }
+    fs::create_directory(folder / "tiles");
+    run({"tiles", file, "-o", folder / "tiles"}, {.file_limit = 4000U});
+    CHECK(fs::is_empty(folder / "tiles"));
+  }
+
+  TEST_CASE("a page that a run left which was killed is no obstacle, another one is") {
+    const Folder folder;
+    const std::vector<std::string> call{"tiles", sample("house"), "-o", folder / "tiles",
+                                        "--viewer"};
+    REQUIRE(run(call).exit == 0);
+    fs::remove(folder / "tiles/tileset.json");
+    CHECK(run(call).exit == 0);
+    fs::remove(folder / "tiles/tileset.json");
+    folder.write("tiles/index.html", "mine");
+    CHECK(run(call).says("E164"));
+    CHECK(bytes_of(folder / "tiles/index.html") == "mine");
+  }
+
   TEST_CASE("a run that was killed is no obstacle, and --resume goes on with it") {
     const Folder folder;
     const std::vector<std::string> houses{sample("house"), sample("block"), sample("row"),
