@@ -5,6 +5,7 @@
 #include "tests/kernel/io/files.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <sqlite3.h>
 
@@ -154,6 +155,44 @@ TEST_SUITE("kernel/io") {
     CHECK(points == 5);
     CHECK(first == 1000.5);
     CHECK(last == first);
+  }
+
+  TEST_CASE("polygons of fewer than three corners are in no geometry") {
+    BoxFile box;
+    box.objects =
+        R"(,"line":{"type":"BuildingInstallation","parents":["house"],"geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":[[[0,1]],[[0,1,0,1]]]}]},"face":{"type":"BuildingInstallation","parents":["house"],"geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":[[[0,1]],[[0,1,5],[1,5]]]}]})";
+    box.building = R"(,"children":["line","face"])";
+    const TemporaryFolder folder;
+    const OpenedPackage package(package_of(folder, box.text()).path);
+    CHECK(package.ask("SELECT id, length(geom) FROM features ORDER BY id") ==
+          fmt::format("face|{} line|", 8 + 48 + 9 + 9 + 4 + 4 * 24));
+  }
+
+  TEST_CASE("GDAL counts the rows of each layer as SQLite does") {
+    if (std::system("command -v ogrinfo >/dev/null") != 0) {
+      MESSAGE("skipped: no ogrinfo (apt-get install gdal-bin)");
+      return;
+    }
+    const TemporaryFolder folder;
+    const std::string path = package_of(folder, box_with_features().text()).path;
+    const std::string said = folder.file("said.txt");
+    REQUIRE(std::system(("ogrinfo -ro -al " + path + " >" + said + " 2>&1").c_str()) == 0);
+    const std::string text = text_of(said);
+    CHECK(text.find("ERROR") == std::string::npos);
+    CHECK(text.find("Warning") == std::string::npos);
+    const OpenedPackage package(path);
+    for (const std::string layer : {"buildings", "surfaces", "features"}) {
+      const std::size_t begin = text.find("Layer name: " + layer + "\n");
+      REQUIRE(begin != std::string::npos);
+      const std::string of_layer = text.substr(begin, text.find("Layer name: ", begin + 1) - begin);
+      const std::string rows = package.ask("SELECT count(*) FROM " + layer);
+      CHECK(of_layer.find("Geometry: 3D Multi Polygon\n") != std::string::npos);
+      CHECK(of_layer.find("Feature Count: " + rows + "\n") != std::string::npos);
+      std::size_t shown = 0;
+      for (std::size_t at = 0; (at = of_layer.find("OGRFeature(", at)) != std::string::npos; ++at)
+        ++shown;
+      CHECK(std::to_string(shown) == rows);
+    }
   }
 
   TEST_CASE("columns have names of their own whatever the attributes are called") {
