@@ -41,6 +41,27 @@ bool draws_the_same(const Step& a, const Step& b) {
          std::tie(b.operation, b.rule, b.numbers, b.words);
 }
 
+/// What takes `change` back from the state before it.
+Change inverse_of(const Change& change, const LevelState& state) {
+  Change inverse;
+  inverse.removed = change.added;
+  inverse.added = change.removed;
+  for (const auto& [outer, holes] : change.holes)
+    inverse.holes[outer] = {holes.added, holes.removed};
+  const auto take_back = [](const auto& changed, const auto& old, auto& back) {
+    for (const auto& [key, value] : changed) {
+      const auto found = old.find(key);
+      if (found == old.end())
+        back[key] = std::nullopt;
+      else
+        back[key] = found->second;
+    }
+  };
+  take_back(change.installations, state.installations, inverse.installations);
+  take_back(change.attributes, state.attributes, inverse.attributes);
+  return inverse;
+}
+
 /// The operations that lead from one level to the next.
 class LevelOperations {
  public:
@@ -279,27 +300,6 @@ class LevelOperations {
     }
   }
 
-  /// What takes `change` back from the state before it.
-  static Change inverse_of(const Change& change, const LevelState& state) {
-    Change inverse;
-    inverse.removed = change.added;
-    inverse.added = change.removed;
-    for (const auto& [outer, holes] : change.holes)
-      inverse.holes[outer] = {holes.added, holes.removed};
-    const auto take_back = [](const auto& changed, const auto& old, auto& back) {
-      for (const auto& [key, value] : changed) {
-        const auto found = old.find(key);
-        if (found == old.end())
-          back[key] = std::nullopt;
-        else
-          back[key] = found->second;
-      }
-    };
-    take_back(change.installations, state.installations, inverse.installations);
-    take_back(change.attributes, state.attributes, inverse.attributes);
-    return inverse;
-  }
-
   std::vector<SeriesOperation> finish(LevelState& state) {
     std::vector<SeriesOperation> out;
     std::set<FeatureId> removed(before_.generalised.removed.begin(),
@@ -393,7 +393,7 @@ ScaleSeries level_series(const std::vector<SeriesLevel>& levels, const Placer& p
     operation.building = state.building;
     operation.scale = levels[i].scale;
     operation.forward = difference(state, next);
-    operation.inverse = difference(next, state);
+    operation.inverse = inverse_of(operation.forward, state);
     operation.aabb_m = box_of(operation.forward);
     state = std::move(next);
   }

@@ -103,6 +103,20 @@ TEST_SUITE("generalise") {
     }
   }
 
+  TEST_CASE("a series of levels only has the same levels and goes down and up") {
+    const Line line = line_of(generated({}, 1).building);
+    const WrittenGrid grid(line.document);
+    const auto levels = series_levels(input_of(line), kSeriesScales, plan_of(line));
+    REQUIRE(levels.value);
+    const ScaleSeries only = level_series(
+        *levels.value, [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
+    CHECK(only.operations.size() == kSeriesScales.size());
+    check_both_ways(line, only);
+    const ScaleSeries whole = series_of(line);
+    for (const double scale : kSeriesScales)
+      CHECK(hash_of(state_at(only, scale)) == hash_of(state_at(whole, scale)));
+  }
+
   TEST_CASE("a series of houses of random3dcity goes down and up") {
     ORIEL_NEEDS_SHARED(shared);
     int houses = 0;

@@ -35,6 +35,19 @@ TEST_SUITE("kernel/mesh") {
     });
   }
 
+  TEST_CASE(
+      "a wall that loses some holes and gains others is as far from itself as they are deep") {
+    BoxBody one, other;
+    for (BoxBody* body : {&one, &other}) body->add({0, 0, 0}, {10, 8, 6});
+    for (const int x : {1, 3, 5}) one.remove({1.0 * x, 0, 2}, {x + 1.0, 0.5, 4});
+    other.remove({1, 0, 2}, {2, 0.5, 4}).remove({7, 0, 1}, {8, 1.25, 2});
+    const Solid a = solid_of(one.build()), b = solid_of(other.build());
+    CHECK(level_distance_m(a, b) == doctest::Approx(hausdorff_m(a, b, 0.002)).epsilon(0.01));
+    const LevelSurface first(a), second(b);
+    CHECK(level_distance_m(first, second) == level_distance_m(a, b));
+    CHECK(level_distance_m(second, first) == doctest::Approx(level_distance_m(a, b)).epsilon(0.01));
+  }
+
   TEST_CASE("the farthest point may lie within a face") {
     BoxBody body;
     body.add({0, 0, 0}, {10, 8, 6});
