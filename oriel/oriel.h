@@ -6,6 +6,7 @@
 
 #include "oriel/corrections.h"              // IWYU pragma: export
 #include "oriel/editing.h"                  // IWYU pragma: export
+#include "oriel/energy.h"                   // IWYU pragma: export
 #include "oriel/experiments/experiment.h"   // IWYU pragma: export
 #include "oriel/experiments/learn.h"        // IWYU pragma: export
 #include "oriel/experiments/paper/count.h"  // IWYU pragma: export

@@ -17,9 +17,9 @@
 namespace oriel::cli {
 
 /// What a record adds to: the file of buildings (-o), --features, the listing on stdout, --explain,
-/// --metrics.
-enum class OutputPart { buildings, features, listing, changes, metrics };
-inline constexpr std::size_t kParts = 5;
+/// --metrics, the tables of --table.
+enum class OutputPart { buildings, features, listing, changes, metrics, energy, envelope };
+inline constexpr std::size_t kParts = 7;
 
 /// Where an output of the command is: its path, and its size at the moment. No path: it is not
 /// asked for.

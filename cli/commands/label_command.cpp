@@ -4,12 +4,14 @@
 #include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/energy_tables.h"
 #include "cli/output/label_outputs.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
+#include "oriel/energy.h"
 #include "oriel/explain.h"
 #include "oriel/repair.h"
 #include "oriel/score.h"
@@ -22,6 +24,7 @@ namespace oriel::cli {
 namespace {
 
 struct LabelArguments : LabellingArguments {
+  EnergyArguments energy;
   std::string corrections_file;
   std::string existing = "fill";
   bool is_json = false;
@@ -75,8 +78,9 @@ bool has_semantics(Format format) {
 
 /// Says where the input's semantics and the rules disagree; nothing is written.
 ExitCode audit(const LabelArguments& arguments) {
-  if (!arguments.out.empty() || !arguments.features.empty())
-    throw CLI::ValidationError("--existing", "audit changes nothing: leave out -o and --features");
+  if (!arguments.out.empty() || !arguments.features.empty() || arguments.energy.has_any())
+    throw CLI::ValidationError("--existing",
+                               "audit changes nothing: leave out -o, --features and --table");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
@@ -104,14 +108,33 @@ ExitCode audit(const LabelArguments& arguments) {
 class Labeller final : public ProducingCommand {
  public:
   Labeller(const LabelArguments& arguments, const RuleBase& rules, BatchRunner& runner)
-      : arguments_(arguments), runner_(runner), outputs_(arguments, rules) {}
+      : arguments_(arguments),
+        rules_(rules),
+        runner_(runner),
+        outputs_(arguments, rules),
+        tables_(arguments.energy, arguments.has_safe_cells) {
+    if (!arguments.energy.extension.empty() && !outputs_.writes_cityjson())
+      throw CLI::ValidationError("--extension",
+                                 "needs an output that is CityJSON or CityJSONSeq, made of such an "
+                                 "input: -o X.city.json, X.city.jsonl");
+    if (tables_.takes_stdout() && arguments.out == "-")
+      throw CLI::ValidationError("--table", "stdout takes the buildings (-o -): write NAME=FILE");
+    if (tables_.takes_stdout() && arguments.is_resumable)
+      throw CLI::ValidationError("--resume", "needs tables that are files: --table NAME=FILE");
+    if (tables_.has_any() && !tables_.is_of_lines() && !arguments.reuse.empty())
+      throw CLI::ValidationError("--reuse", "needs tables that are files in .csv or .jsonl");
+  }
 
   void name_files(NamedFiles& files) const override {
     outputs_.name_files(files);
+    tables_.name_files(files);
     if (!arguments_.corrections_file.empty())
       files.add_input("--corrections", arguments_.corrections_file);
   }
-  void begin(std::size_t input) override { outputs_.begin(input, !runner_.is_last_run()); }
+  void begin(std::size_t input) override {
+    outputs_.begin(input, !runner_.is_last_run());
+    tables_.begin(!runner_.is_last_run());
+  }
   Product make(std::size_t input, const Document& document,
                const std::vector<PipelineResult>& results, Timings& timings) const override {
     return timings.measure(Stage::write, [&] { return made_of(input, document, results); });
@@ -121,17 +144,29 @@ class Labeller final : public ProducingCommand {
     if (arguments_.corrections)
       for (const Building& building : document.buildings) buildings_.insert(building.id);
     outputs_.take(document, product);
+    tables_.take(product);
   }
   void end(std::size_t /*input*/) override {
     runner_.timings().measure(Stage::write, [&] { outputs_.end(); });
   }
-  void commit() override { outputs_.commit(); }
-  void reopen() override { outputs_.reopen(); }
+  void commit() override {
+    outputs_.commit();
+    if (outputs_.has_ended()) tables_.commit();
+  }
+  void reopen() override {
+    outputs_.reopen();
+    tables_.begin(false);
+  }
 
-  [[nodiscard]] PartPlaces places() const override { return outputs_.places(); }
+  [[nodiscard]] PartPlaces places() const override {
+    PartPlaces places = outputs_.places();
+    tables_.add_places(places);
+    return places;
+  }
   [[nodiscard]] std::string recipe() const override {
-    return fmt::format("label existing={} repaired={} {}", arguments_.existing,
-                       arguments_.is_repaired, outputs_.recipe());
+    return fmt::format("label existing={} repaired={} {}{}{}", arguments_.existing,
+                       arguments_.is_repaired, outputs_.recipe(), tables_.recipe(),
+                       arguments_.energy.extension);
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
 
@@ -151,6 +186,7 @@ class Labeller final : public ProducingCommand {
                                 const std::vector<PipelineResult>& results) const {
     Product product;
     OutputRecord output{{}, arguments_.write_options()};
+    const std::vector<BuildingEnergy> energy = make_tables(document, results, product);
     for (std::size_t i = 0; i < results.size(); ++i) {
       now_at_building(i);
       const Building& building = document.buildings[i];
@@ -162,16 +198,39 @@ class Labeller final : public ProducingCommand {
       if (!results[i].is_done()) continue;
       outputs_.make_features(building, results[i], product);
       outputs_.add_attributes(building, results[i], output);
-      if (!outputs_.has_any()) product[OutputPart::listing] += listing(building, results[i]);
+      if (!outputs_.has_any() && !tables_.has_any())
+        product[OutputPart::listing] += listing(building, results[i]);
     }
     now_at_building(kNoBuilding);
     outputs_.make_buildings(input, document, std::move(output), product);
+    if (std::string& text = product[OutputPart::buildings];
+        !arguments_.energy.extension.empty() && !text.empty())
+      text = with_energy_extension(text, energy);
     return product;
   }
 
+  /// Adds the rows of the buildings, and returns what is known of them.
+  std::vector<BuildingEnergy> make_tables(const Document& document,
+                                          const std::vector<PipelineResult>& results,
+                                          Product& product) const {
+    std::vector<BuildingEnergy> all;
+    if (!arguments_.energy.has_any()) return all;
+    const auto storeys = stated_storeys(document);
+    const LabelOptions options = arguments_.label_options();
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (results[i].is_passed_over) continue;
+      now_at_building(i);
+      all.push_back(tables_.energy(document.buildings[i], results[i], rules_, options, storeys[i]));
+      tables_.make(all.back(), product);
+    }
+    return all;
+  }
+
   const LabelArguments& arguments_;
+  const RuleBase& rules_;
   BatchRunner& runner_;
   LabelOutputs outputs_;
+  EnergyTables tables_;
   /// With corrections.
   std::set<std::string> buildings_;
 };
@@ -180,14 +239,15 @@ ExitCode work(LabelArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
   if (arguments.existing == "audit") return audit(arguments);
-  if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty())
+  if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty() &&
+      !arguments.energy.has_any())
     arguments.out = "-";
   if (arguments.is_repaired) arguments.crossings = "cut";
   arguments.joins_installations = !arguments.is_repaired;
   arguments.only_names_surfaces = true;
   arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
                                    !arguments.has_reasons && !arguments.is_repaired &&
-                                   !arguments.writes_attributes();
+                                   !arguments.energy.has_any() && !arguments.writes_attributes();
   if (arguments.is_json) throw CLI::ValidationError("--json", "works only with --existing audit");
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
@@ -220,6 +280,7 @@ void add_label(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "label", "Label the parts of buildings by rules and write the buildings with their labels");
   add_label_arguments(*command, *arguments);
+  add_energy_arguments(*command, arguments->energy);
   command
       ->add_option("--existing", arguments->existing,
                    "Semantics that the input has: fill adds what is missing; keep does so and "
@@ -236,7 +297,8 @@ void add_label(CLI::App& app, Action& action) {
                     "Write the reason for every label and surface into the file, as oriel_why");
   command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");
   command->footer(
-      "Without -o and --features, the labels are listed; a stream from stdin goes to stdout. "
+      "Without -o, --features and --table, the labels are listed; a stream from stdin goes to "
+      "stdout. "
       "Polygons are written unchanged unless --repaired is given.\nExample:\n  oriel label "
       "house.city.json -o labelled.city.json\n  oriel label city/*.city.json -o labelled/ "
       "--features parts.csv --rules my_rules.yaml");

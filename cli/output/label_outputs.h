@@ -50,6 +50,9 @@ class LabelOutputs {
   [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
 
+  /// OutputSink::is_cityjson().
+  [[nodiscard]] bool writes_cityjson() const { return sink_ && sink_->is_cityjson(); }
+
   /// OutputSink::gathers_any().
   [[nodiscard]] bool gathers_any() const { return sink_ && sink_->gathers_any(); }
 

@@ -139,6 +139,13 @@ bool OutputSink::is_citygml() const {
   return true;
 }
 
+bool OutputSink::is_cityjson() const {
+  const auto is_json = [](Format f) { return f == Format::cityjson || f == Format::cityjson_seq; };
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    if (!is_json(format_of_output(i)) || !is_json(format_of_input(i))) return false;
+  return true;
+}
+
 bool OutputSink::has_attributes() const {
   for (std::size_t i = 0; i < inputs_.size(); ++i)
     if (format_of_output(i) == Format::gpkg) return true;

@@ -45,6 +45,8 @@ class OutputSink {
                                  const OutputRecord& output, std::vector<Issue>& issues) const;
   /// All files are CityGML.
   [[nodiscard]] bool is_citygml() const;
+  /// All files are CityJSON or CityJSONSeq, and made of such files.
+  [[nodiscard]] bool is_cityjson() const;
   /// Such formats: `add` needs the buildings.
   [[nodiscard]] bool is_gathering(std::size_t input) const;
   /// Puts a record of the input at hand into its place, whose `text` it was.

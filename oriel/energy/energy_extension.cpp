@@ -1,0 +1,201 @@
+#include "kernel/io/json/json_text.h"
+#include "kernel/io/json/raw_json.h"
+#include "oriel/energy.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using detail::append_json;
+using detail::append_json_key;
+using detail::RawNode;
+
+/// O. Tufan, "Development and Testing of the CityJSON Energy Extension for Space Heating Demand
+/// Calculation", TU Delft 2022; its file says version 1.1.0, of which a CityJSON file states two
+/// numbers.
+constexpr std::string_view kName = "Energy";
+constexpr std::string_view kDeclaration =
+    R"({"url":"https://raw.githubusercontent.com/ozgetufan/cjenergy/master/schemas/extensions/energy.ext.json","version":"1.1"})";
+
+std::string as_json(std::string_view text) {
+  std::string out;
+  append_json(out, text);
+  return out;
+}
+
+std::string list_of(const std::vector<std::string>& ids) {
+  std::string out;
+  detail::append_json_array(out, std::vector<std::string_view>(ids.begin(), ids.end()));
+  return out;
+}
+
+std::string gross_volume(double volume_m3) {
+  std::string out = R"([{"energy-type":"grossVolume","energy-value":)";
+  append_json(out, volume_m3);
+  return out + "}]";
+}
+
+/// The type of a boundary; empty: the extension has none for it.
+std::string_view boundary_type(EnvelopeKind kind) {
+  switch (kind) {
+    case EnvelopeKind::wall:
+      return "outerWall";
+    case EnvelopeKind::roof:
+    case EnvelopeKind::floor:
+      return "roof";
+    case EnvelopeKind::ground:
+      return "groundSlab";
+    case EnvelopeKind::ceiling:
+      break;
+  }
+  return {};
+}
+
+/// Objects of the extension: their ids and texts.
+using EnergyObjects = std::vector<std::pair<std::string, std::string>>;
+
+/// Everything of one building.
+class ZoneWriter {
+ public:
+  explicit ZoneWriter(const BuildingEnergy& of) : of_(of), zone_(of.building + kZone.data()) {}
+
+  /// What the ids begin with.
+  static std::string prefix(const std::string& building) { return building + kZone.data(); }
+
+  EnergyObjects objects() {
+    for (std::size_t i = 0; i < of_.faces.size(); ++i) {
+      const EnvelopeFace& face = of_.faces[i];
+      const std::string id = fmt::format("{}-{}", zone_, i + 1);
+      const std::string_view type = boundary_type(face.kind);
+      if (type.empty()) continue;
+      if (face.exposed_m2() > kLeast_m2) add_boundary(id, type, face, face.exposed_m2(), true);
+      const double party = face.party_m2.value_or(0);
+      if (party > kLeast_m2) add_boundary(id + "-shared", "sharedWall", face, party, false);
+    }
+    std::string zone = R"({"type":"+Energy-ThermalZone","attributes":{"energy-volume":)";
+    zone += gross_volume(of_.volume_m3) + R"(},"parents":)" + list_of({of_.building}) +
+            R"(,"energy-boundedBy":)" + list_of(boundaries_) + "}";
+    objects_.emplace(objects_.begin(), zone_, std::move(zone));
+    return std::move(objects_);
+  }
+
+  [[nodiscard]] const std::string& zone() const { return zone_; }
+
+ private:
+  static constexpr std::string_view kZone = "-energy-zone";
+  /// What is left of a face by rounding is no face.
+  static constexpr double kLeast_m2 = 1e-4;
+
+  void add_boundary(const std::string& id, std::string_view type, const EnvelopeFace& face,
+                    double area_m2, bool has_openings) {
+    std::vector<std::string> openings;
+    double window_m2 = 0;
+    for (const EnvelopeOpening& opening : face.openings) {
+      if (!has_openings) break;
+      openings.push_back(fmt::format("{}-{}", zone_, opening.id));
+      if (!opening.is_door) window_m2 += opening.area_m2;
+      std::string text = R"({"type":"+Energy-ThermalOpening","attributes":{"energy-area":)";
+      append_json(text, opening.area_m2);
+      objects_.emplace_back(openings.back(), text + "}}");
+    }
+    std::string text = R"({"type":"+Energy-ThermalBoundary","attributes":{)";
+    append_json_key(text, "energy-thermalBoundaryType");
+    append_json(text, type);
+    append_json_key(text, "energy-azimuth");
+    if (face.azimuth_deg)
+      append_json(text, *face.azimuth_deg);
+    else
+      text += "null";
+    detail::append_field(text, "energy-inclination", face.inclination_deg);
+    detail::append_field(text, "energy-area", area_m2);
+    if (has_openings) detail::append_field(text, "energy-windowRatio", window_m2 / area_m2);
+    text += R"(},"energy-delimits":)" + list_of({zone_});
+    if (!openings.empty()) text += R"(,"energy-contains":)" + list_of(openings);
+    objects_.emplace_back(id, text + "}");
+    boundaries_.push_back(id);
+  }
+
+  const BuildingEnergy& of_;
+  std::string zone_;
+  std::vector<std::string> boundaries_;
+  EnergyObjects objects_;
+};
+
+bool has_type(const RawNode& object, std::string_view prefix) {
+  return detail::decoded(object.value_of("type")).starts_with(prefix);
+}
+
+/// Takes out what an earlier call made of a building.
+void erase_earlier(RawNode& objects, const std::vector<BuildingEnergy>& of) {
+  std::vector<std::string> prefixes;
+  for (const BuildingEnergy& one : of) prefixes.push_back(ZoneWriter::prefix(one.building));
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects.is_erased(i) || !RawNode::is_object(objects.value(i))) continue;
+    const std::string key = objects.key(i);
+    const bool is_ours = std::any_of(prefixes.begin(), prefixes.end(),
+                                     [&](const auto& prefix) { return key.starts_with(prefix); });
+    if (is_ours && has_type(RawNode(objects.value(i)), "+Energy-Thermal")) objects.erase(i);
+  }
+}
+
+/// The building with its volume and its zone among its children.
+std::string with_zone(std::string_view text, const BuildingEnergy& of, const std::string& zone) {
+  RawNode object(text);
+  const std::string_view there = object.value_of("attributes");
+  RawNode attributes(RawNode::is_object(there) ? there : "{}");
+  attributes.set("+energy-volume", gross_volume(of.volume_m3));
+  object.set("attributes", attributes.text());
+  const std::string_view ids = object.value_of("children");
+  RawNode children(RawNode::is_array(ids) ? ids : "[]");
+  bool is_there = false;
+  for (std::size_t i = 0; i < children.size(); ++i)
+    is_there |= detail::decoded(children.value(i)) == zone;
+  if (!is_there) children.push_back(as_json(zone));
+  object.set("children", children.text());
+  return object.text();
+}
+
+}  // namespace
+
+std::string with_energy_extension(const std::string& text, const std::vector<BuildingEnergy>& of) {
+  const std::size_t start = text.find('{');
+  if (start == std::string::npos) return text;
+  const std::size_t end = text.rfind('}') + 1;
+  RawNode root(std::string_view(text).substr(start, end - start));
+  if (detail::decoded(root.value_of("type")) == "CityJSON") {
+    const std::string_view there = root.value_of("extensions");
+    RawNode extensions(RawNode::is_object(there) ? there : "{}");
+    extensions.set(kName, std::string(kDeclaration));
+    root.set("extensions", extensions.text());
+  }
+  const std::string_view objects_text = root.value_of("CityObjects");
+  if (!of.empty() && RawNode::is_object(objects_text)) {
+    RawNode objects(objects_text);
+    erase_earlier(objects, of);
+    std::unordered_map<std::string, std::size_t> place_of;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      if (!objects.is_erased(i)) place_of.try_emplace(objects.key(i), i);
+    for (const BuildingEnergy& one : of) {
+      const auto place = place_of.find(one.building);
+      if (!one.is_known || place == place_of.end()) continue;
+      ZoneWriter writer(one);
+      objects.set(place->second, with_zone(objects.value(place->second), one, writer.zone()));
+      for (auto& [id, object] : writer.objects()) objects.append(id, std::move(object));
+    }
+    root.set("CityObjects", objects.text());
+  }
+  std::string out = text.substr(0, start);
+  root.append_text(out);
+  return out + text.substr(end);
+}
+
+}  // namespace oriel
