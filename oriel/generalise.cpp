@@ -5,6 +5,7 @@
 #include "interpret/plan/plan.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
+#include "oriel/pipeline/drawing_quality.h"
 #include "oriel/pipeline/faulty_imprints.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
@@ -114,9 +115,9 @@ class BuildingDrawer {
                                            GeneralisedBuilding& drawn) const;
   void redraw_unchanged(const PipelineResult& result, Generalised& generalised,
                         GeneralisedBuilding& out) const;
-  void keep_figures(const Profile* profile, const PipelineResult& result,
-                    const Generalised& changes, const Redrawn& redrawn,
-                    GeneralisedBuilding& out) const;
+  void keep_fineness(const Profile* profile, const PipelineResult& result,
+                     const Generalised& changes, const Redrawn& redrawn,
+                     GeneralisedBuilding& out) const;
   void pass(Stage stage) const {
     if (options_.checkpoint) options_.checkpoint(stage);
   }
@@ -306,7 +307,7 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
     redrawn = redraw(building_, of.labelled, *result.segmentation, table, result.interpretation,
                      std::move(*made.value), result.tolerances);
   }
-  keep_figures(profile, result, changes, *redrawn, out);
+  keep_fineness(profile, result, changes, *redrawn, out);
   return redrawn;
 }
 
@@ -364,9 +365,9 @@ Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile,
   return made;
 }
 
-void BuildingDrawer::keep_figures(const Profile* profile, const PipelineResult& result,
-                                  const Generalised& changes, const Redrawn& redrawn,
-                                  GeneralisedBuilding& out) const {
+void BuildingDrawer::keep_fineness(const Profile* profile, const PipelineResult& result,
+                                   const Generalised& changes, const Redrawn& redrawn,
+                                   GeneralisedBuilding& out) const {
   const double least_m = least_edge_m(profile, targets_.scale);
   const Solid& before = *result.solid;
   const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
@@ -376,10 +377,11 @@ void BuildingDrawer::keep_figures(const Profile* profile, const PipelineResult& 
   keep(fineness_issues(building_, before, after, *result.segmentation, result.description.table,
                        changes, asked),
        out);
-  if (options_.reports_figures)
-    out.reports.back().figures =
-        TargetFigures{least_m, figures_of(before, least_m), figures_of(after, least_m),
-                      hausdorff_m(before, after)};
+  // They are measured when it is known what is written.
+  if (!options_.reports_figures) return;
+  TargetFigures& figures = out.reports.back().figures.emplace();
+  figures.least_edge_m = least_m;
+  figures.map_scale = targets_.scale.value_or(0);
 }
 
 std::string BuildingDrawer::target_text(const Profile* profile) const {
@@ -417,6 +419,34 @@ GeneralisedBuilding open_drawing(const BuildingDrawer& drawer, const PipelineRes
   drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
   if (!drawn.repaired) drawn.repaired = std::move(repaired);
   return drawn;
+}
+
+/// Measures what is written for each target.
+void measure_figures(const Document& document, const Building& building,
+                     const PipelineResult& result, const RuleBase& rules,
+                     const GeneraliseOptions& options, GeneralisedBuilding& drawn) {
+  const PipelineResult& from = drawn.repaired ? *drawn.repaired : result;
+  const std::size_t count = std::min(drawn.levels.size(), drawn.reports.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!drawn.reports[i].figures) continue;
+    TargetFigures& figures = *drawn.reports[i].figures;
+    const double least_m = figures.least_edge_m;
+    const LabelledBuilding& written = drawn.levels[i].labelled;
+    figures.before = figures.after = figures_of(*from.solid, least_m);
+    figures.quality_before = quality_before(building, from, rules, options, least_m);
+    if (!written.geometry) {
+      figures.quality_after = figures.quality_before;
+      for (const auto& [label, number] : count_labels(from.interpretation))
+        if (!label.empty()) figures.found_again[label] = {number, number};
+      continue;
+    }
+    figures.after = figures_of(*written.geometry, least_m);
+    figures.hausdorff_m = hausdorff_m(*from.solid, *written.geometry);
+    figures.quality_after =
+        quality_after(document, building, written, rules, options, least_m, figures.found_again);
+  }
+  // Of what was given up at all targets nothing is written.
+  for (std::size_t i = count; i < drawn.reports.size(); ++i) drawn.reports[i].figures.reset();
 }
 
 bool has_installation(const Redrawn& level, const std::string& id) {
@@ -487,6 +517,8 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
             result.is_open ? open_drawing(drawer, result, options.observer)
                            : valid_drawing(drawer, result, Origin::input, options.observer);
         if (has_errors(made.issues)) made.levels.clear();
+        if (options.reports_figures)
+          measure_figures(document, building, result, rules, options, made);
         if (options.groups && result.surroundings) {
           const auto more = options.groups->issues_of(*result.surroundings);
           made.issues.insert(made.issues.end(), more.begin(), more.end());

@@ -2,6 +2,8 @@
 
 #include "generalise/city/city_groups.h"
 #include "generalise/generalise.h"
+#include "generalise/metrics/facade_quality.h"
+#include "generalise/metrics/legibility.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/issue.h"
@@ -49,12 +51,30 @@ struct GeneraliseOptions : LabelOptions {
   std::shared_ptr<const CityGroups> groups{};
 };
 
-/// Figures of a building before and after.
+/// How well a building can be read, and how its openings stand to each other.
+struct DrawingQuality {
+  Legibility legibility;
+  FacadeQuality facades;
+};
+
+/// Of the windows, doors and installations that are drawn with one label, how many get it again if
+/// the drawing is labelled.
+struct FoundAgain {
+  int drawn = 0;
+  int found = 0;
+};
+
+/// Figures of a building before and after (docs/generalisation.md#quality).
 struct TargetFigures {
   /// The least length that the target shows.
   double least_edge_m = 0;
+  /// The denominator of the scale; 0 for a level of detail.
+  double map_scale = 0;
   SolidFigures before, after;
   double hausdorff_m = 0;
+  DrawingQuality quality_before, quality_after;
+  /// By label.
+  std::map<std::string, FoundAgain> found_again;
 };
 
 /// What became of a building at one target.

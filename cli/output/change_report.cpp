@@ -12,6 +12,80 @@ namespace {
 /// Ids of OBJ and records may be any bytes.
 constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
 
+using nlohmann::ordered_json;
+
+/// A length, or null.
+ordered_json json_of(std::optional<double> value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+/// The ratio of two numbers; null without a denominator.
+ordered_json share(double part, double whole) {
+  return whole > 0 ? ordered_json(part / whole) : ordered_json();
+}
+
+/// `NAME_before` and `NAME_after`.
+template <class Value>
+void add_both(const TargetFigures& figures, const std::string& name, Value value,
+              ordered_json& line) {
+  line[name + "_before"] = value(figures.quality_before);
+  line[name + "_after"] = value(figures.quality_after);
+}
+
+void add_legibility(const TargetFigures& figures, ordered_json& line) {
+  const auto add = [&](const char* name, auto member) {
+    add_both(
+        figures, std::string("smallest_") + name + "_m",
+        [&](const DrawingQuality& of) { return json_of(of.legibility.*member); }, line);
+    if (figures.map_scale > 0) {
+      const auto after = figures.quality_after.legibility.*member;
+      line[fmt::format("smallest_{}_map_mm", name)] =
+          json_of(after ? std::optional(*after * 1000 / figures.map_scale) : std::nullopt);
+    }
+  };
+  const auto count = [&](const char* name, auto number) {
+    add_both(
+        figures, name, [&](const DrawingQuality& of) { return of.legibility.*number; }, line);
+  };
+  add("edge", &Legibility::smallest_edge_m);
+  add("gap", &Legibility::smallest_gap_m);
+  count("gaps_below", &Legibility::narrow_gaps);
+  add("opening_gap", &Legibility::smallest_opening_gap_m);
+  count("opening_gaps_below", &Legibility::narrow_opening_gaps);
+  add("width", &Legibility::smallest_width_m);
+  count("widths_below", &Legibility::narrow_features);
+}
+
+void add_facades(const TargetFigures& figures, ordered_json& line) {
+  const FacadeQuality& before = figures.quality_before.facades;
+  const FacadeQuality& after = figures.quality_after.facades;
+  const auto add = [&](const char* name, auto member) {
+    add_both(
+        figures, name, [&](const DrawingQuality& of) { return of.facades.*member; }, line);
+  };
+  add("openings", &FacadeQuality::openings);
+  add("openings_m2", &FacadeQuality::openings_m2);
+  line["openings_kept"] = share(after.openings, before.openings);
+  line["openings_area_kept"] = share(after.openings_m2, before.openings_m2);
+  add("rows", &FacadeQuality::rows);
+  add("aligned_rows", &FacadeQuality::aligned_rows);
+  add("long_rows", &FacadeQuality::long_rows);
+  add("even_rows", &FacadeQuality::even_rows);
+  add("symmetry", &FacadeQuality::symmetry);
+}
+
+void add_found_again(const TargetFigures& figures, ordered_json& line) {
+  int drawn = 0, found = 0;
+  ordered_json by_label = ordered_json::object();
+  for (const auto& [label, count] : figures.found_again) {
+    drawn += count.drawn;
+    found += count.found;
+    by_label[label] = {{"drawn", count.drawn}, {"found", count.found}};
+  }
+  line["labels_found_again"] = share(found, drawn);
+  line["labels"] = std::move(by_label);
+}
+
 }  // namespace
 
 void ChangeReport::name_files(NamedFiles& files) const {
@@ -71,6 +145,9 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
   both("volume_m3", [](const SolidFigures& f) { return f.volume_m3; });
   both("footprint_m2", [](const SolidFigures& f) { return f.footprint_m2; });
   line["hausdorff_m"] = figures.hausdorff_m;
+  add_legibility(figures, line);
+  add_facades(figures, line);
+  add_found_again(figures, line);
   return line.dump(-1, ' ', false, kReplace) + "\n";
 }
 

@@ -197,6 +197,29 @@ TEST_SUITE("cli") {
     // The chimney that went is the furthest from what is left.
     CHECK(figures["hausdorff_m"] > 0.5);
     CHECK(figures["hausdorff_m"] < 3);
+    // At this scale no openings are left; what is left is labelled as it was.
+    CHECK(figures["openings_before"] == 18);
+    CHECK(figures["openings_after"] == 0);
+    CHECK(figures["openings_kept"] == 0);
+    CHECK(figures["rows_after"] == 0);
+    CHECK(figures["smallest_edge_m_after"] > figures["smallest_edge_m_before"]);
+    CHECK(figures["smallest_edge_map_mm"].get<double>() ==
+          doctest::Approx(figures["smallest_edge_m_after"].get<double>() / 5));
+  }
+
+  TEST_CASE("what is drawn unchanged keeps all openings, their rows and its labels") {
+    const Folder folder;
+    REQUIRE(run({"generalise", sample("house"), "--scale", "1:500", "--metrics", folder / "m.jsonl",
+                 "-o", folder / "out.city.json"})
+                .exit == 0);
+    const json figures = json::parse(bytes_of(folder / "m.jsonl"));
+    CHECK(figures["hausdorff_m"] == 0);
+    CHECK(figures["openings_kept"] == 1);
+    CHECK(figures["openings_area_kept"] == 1);
+    CHECK(figures["rows_after"] == figures["rows_before"]);
+    CHECK(figures["symmetry_after"] == figures["symmetry_before"]);
+    CHECK(figures["labels_found_again"] == 1);
+    CHECK(figures["labels"]["chimney"] == json{{"drawn", 1}, {"found", 1}});
   }
 
   TEST_CASE("a map profile decides of what the pack has no entry for") {
