@@ -1,8 +1,10 @@
 #include "oriel/series.h"
 
+#include "generalise/city/group_levels.h"
 #include "generalise/series/scale_series.h"
 #include "generalise/series/series_levels.h"
 #include "interpret/plan/plan.h"
+#include "kernel/io/levels/level_file.h"
 #include "kernel/io/levels/written_grid.h"
 #include "oriel/pipeline/faulty_imprints.h"
 #include "oriel/pipeline/output_check.h"
@@ -12,7 +14,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,6 +42,7 @@ struct LeveledBuilding {
   std::optional<Issue> finest_fault{};
   std::unique_ptr<const PipelineResult> repaired{};  ///< what `result` is, if it was repaired
   std::shared_ptr<Work> work{};                      ///< of all its levels and operations
+  std::vector<double> scales{};                      ///< at which it is drawn by itself
 
   /// All levels are valid solids in the file, and so is the building as it came.
   [[nodiscard]] bool is_valid() const { return !has_errors(issues) && !finest_fault; }
@@ -55,11 +61,16 @@ class SeriesDrawer {
         bounds_(plan_bounds(rules)) {
     // Repairing and labelling again is measured as a part of generalising.
     options_.observer = nullptr;
+    for (std::size_t i = 0; i < options.groups.size(); ++i)
+      groups_.push_back({scales[i], options.groups[i].get()});
   }
 
   Series draw(const std::vector<PipelineResult>& results, const StageObserver& observer) {
     Series series;
     std::vector<LeveledBuilding> all;
+    for (std::size_t i = 0; i < results.size() && !groups_.empty(); ++i)
+      if (results[i].surroundings)
+        around_.emplace(&document_.buildings[i], &*results[i].surroundings);
     measure(observer, Stage::generalise, [&] {
       for (std::size_t i = 0; i < results.size(); ++i)
         if (results[i].is_done()) add_levels(document_.buildings[i], results[i], all, series);
@@ -68,7 +79,12 @@ class SeriesDrawer {
     series.finer_digits = grid.finer_digits();
     measure(observer, Stage::generalise, [&] {
       for (const LeveledBuilding& one : all) add_operations(one, grid, series);
+      add_undrawn(grid, series);
     });
+    for (const Building& building : document_.buildings)
+      if (const auto around = around_.find(&building); around != around_.end())
+        std::ranges::move(issues_of_groups(groups_, *around->second),
+                          std::back_inserter(series.issues));
     return series;
   }
 
@@ -130,6 +146,8 @@ class SeriesDrawer {
     LeveledBuilding one{&building, &result, annotate(building, result, rules_, options_)};
     one.is_repaired = is_repaired;
     one.work = work;
+    one.scales = scales_;
+    one.scales.resize(std::min(first_in_its_block(building), scales_.size()));
     draw_levels(one);
     return one;
   }
@@ -220,15 +238,17 @@ class SeriesDrawer {
                                 result.interpretation, scale);
       return asked;
     };
-    auto levels = series_levels(input_of(one), scales_, plan_at);
+    auto levels = series_levels(input_of(one), one.scales, plan_at);
     one.issues = std::move(levels.issues);
     one.levels.clear();
     one.finest_fault.reset();
     if (!levels.value) return;
     one.levels = std::move(*levels.value);
     check(one);
-    if (!options_.has_only_levels)
-      one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
+    if (options_.has_only_levels) return;
+    // At least one scale, though nothing fires between the building as it came and nothing else.
+    one.firing = std::make_unique<FiringScales>(
+        one.scales.empty() ? std::vector<double>{1} : one.scales, bounds_, plan_at);
   }
 
   /// A level that is not valid as it is written is an error; the building as it came need not be,
@@ -258,13 +278,14 @@ class SeriesDrawer {
 
   void add_operations(const LeveledBuilding& one, const WrittenGrid& grid, Series& out) const {
     const Frame& frame = one.building->frame;
-    BuildingSeries building{one.building->id, frame, one.labelled.attributes, {}, {}};
+    BuildingSeries building{one.building->id, frame, one.labelled.attributes, {}, {}, false};
     for (const Installation& installation : one.labelled.installations)
       building.installations.push_back(installation.id);
     const Placer place = [&](Vec3 local_m) { return grid.place(local_m, frame); };
     try {
       building.series = one.firing ? scale_series(input_of(one), one.levels, *one.firing, place)
                                    : level_series(one.levels, place);
+      add_groups(*one.building, place, building.series);
     } catch (const DoubledFacet& fault) {
       out.issues.push_back(doubled(*one.building, fault));
       return;
@@ -272,8 +293,39 @@ class SeriesDrawer {
       out.issues.push_back(own_fault(*one.building, fault));
       return;
     }
+    add(std::move(building), out);
+  }
+
+  void add(BuildingSeries building, Series& out) const {
     for (SeriesOperation& operation : building.series.operations) operation.lod = options_.lod;
     out.buildings.push_back(std::move(building));
+  }
+
+  /// The number of the first scale at which it is in a block, or one that is no scale's.
+  [[nodiscard]] std::size_t first_in_its_block(const Building& building) const {
+    const auto around = around_.find(&building);
+    return around == around_.end() ? scales_.size() : first_in_block(groups_, *around->second);
+  }
+
+  void add_groups(const Building& building, const Placer& place, ScaleSeries& series) const {
+    const auto around = around_.find(&building);
+    if (around == around_.end()) return;
+    add_group_operations(groups_, building, *around->second,
+                         fmt::format("{}/buildings", profile_->title()), place, series);
+  }
+
+  /// Buildings without levels that become part of a block all the same.
+  void add_undrawn(const WrittenGrid& grid, Series& out) const {
+    std::set<std::string> drawn;
+    for (const BuildingSeries& one : out.buildings) drawn.insert(one.building);
+    for (const Building& building : document_.buildings) {
+      if (first_in_its_block(building) >= scales_.size() || drawn.contains(building.id)) continue;
+      BuildingSeries made{building.id, building.frame, {}, {}, {}, true};
+      made.series.finest = state_as_read(document_, building);
+      add_groups(
+          building, [&](Vec3 local_m) { return grid.place(local_m, building.frame); }, made.series);
+      add(std::move(made), out);
+    }
   }
 
   /// No valid solid has such, so it was none when it was read, and its levels are none.
@@ -290,6 +342,9 @@ class SeriesDrawer {
   SeriesOptions options_;
   const Profile* profile_;
   std::vector<double> bounds_;
+  std::vector<GroupsAtScale> groups_;
+  /// What stands around the document's buildings, if there are groups.
+  std::map<const Building*, const Neighbourhood*> around_;
 };
 
 }  // namespace
@@ -324,6 +379,8 @@ OutputRecord at(const Series& series, double scale) {
     LevelState state = one.series.finest;
     if (!move_state(state, one.series.operations, 0, scale))
       throw GeometryError("an operation of a series does not fit the state before it");
+    if (one.is_as_read && state == one.series.finest) continue;
+    if (state.facets.empty()) output.options.emptied.push_back(one.building);
     LabelledBuilding level = labelled_building(state, one.frame);
     for (const std::string& id : one.installations)
       if (!state.installations.contains(id)) output.options.removed.push_back(id);

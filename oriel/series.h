@@ -1,5 +1,6 @@
 #pragma once
 
+#include "generalise/city/city_groups.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/issue.h"
@@ -10,6 +11,7 @@
 #include "oriel/write.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +28,8 @@ struct BuildingSeries {
   /// The ids of its installations before any operation.
   std::vector<std::string> installations;
   ScaleSeries series;
+  /// No levels could be drawn of it: it stays as it was read until it becomes part of a block.
+  bool is_as_read = false;
 };
 
 /// All buildings of a record from fine to coarse.
@@ -49,6 +53,9 @@ struct SeriesOptions : LabelOptions {
   /// Only the levels are asked for, so that one operation without a feature leads from each to the
   /// next, which is quicker.
   bool has_only_levels = false;
+  /// With `neighbours` and a profile: rows and blocks at each of the scales, null where none are
+  /// asked for; empty: at none (CityGroups).
+  std::vector<std::shared_ptr<const CityGroups>> groups{};
 };
 
 /// The series of a record for `scales` (denominators, which ascend): every level a valid solid, the
@@ -57,6 +64,10 @@ struct SeriesOptions : LabelOptions {
 /// `results` are what label() said of the document's buildings, in their order, with the same rules
 /// and options; those that are not is_done() are passed over. Joined installations are taken as
 /// generalise() takes them.
+///
+/// A building that becomes part of a block (SeriesOptions::groups) has its own levels up to the
+/// scale at which it does, whatever became of it in `results`; notes G421 and G423 and warnings
+/// G422 and G440 say so.
 ///
 /// Open buildings are repaired first (G420). A level never has what a finer one lost. First the
 /// steps of a building that would not be valid are judged one by one, then it is drawn from a

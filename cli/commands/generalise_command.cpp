@@ -290,7 +290,8 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
   check_level("--profile", profile.issues);
   report.add(profile.issues);
   if (!profile.value) return ExitCode::rules;
-  const auto unfit = check_profile(*profile.value, rules, ProfileUse::series);
+  const auto unfit = check_profile(*profile.value, rules, ProfileUse::series,
+                                   arguments.neighbours != nullptr);
   report.add(unfit);
   if (has_errors(unfit)) return ExitCode::rules;
   return write_series(arguments, scales, profile.value, rules, report);

@@ -51,7 +51,7 @@ ExitCode work(TilesCall& call) {
     auto profile = load_profile_file(call.profile_name);
     report.add(profile.issues);
     if (!profile.value) return ExitCode::rules;
-    const auto unfit = check_profile(*profile.value, *rules, ProfileUse::series);
+    const auto unfit = check_profile(*profile.value, *rules, ProfileUse::tiles);
     report.add(unfit);
     if (has_errors(unfit)) return ExitCode::rules;
     call.profile = std::move(profile.value);

@@ -1,5 +1,6 @@
 #include "cli/output/series_output.h"
 
+#include "cli/batch/arena.h"
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/options.h"
 #include "cli/output/output_sink.h"
@@ -255,6 +256,13 @@ class SeriesWriter final : public VisitingCommand {
         outputs_(labels_, rules) {
     static_cast<LabelOptions&>(options_) = labels_.label_options();
     options_.profile = std::move(profile);
+    if (!options_.neighbours || !options_.profile) return;
+    for (const double scale : scales)
+      options_.groups.push_back(
+          asks_for_groups(*options_.profile, scale)
+              ? std::make_shared<CityGroups>(*options_.neighbours, *options_.profile, scale,
+                                             shares_in_arena(arguments.jobs))
+              : nullptr);
   }
 
   void name_files(NamedFiles& files) const override {

@@ -27,8 +27,6 @@ MicrometreRing ring_of(const Loop& loop, const std::vector<MicrometrePoint>& pla
   return ring;
 }
 
-bool is_count(const std::string& name) { return name.starts_with("oriel_removed_"); }
-
 Members all_as_written(Members members) {
   for (auto& [name, value] : members) value = as_written(value);
   return members;
@@ -69,7 +67,7 @@ class Builder {
     tie_openings();
     for (const auto& [id, attributes] : state_.installations) add_installation(id, attributes);
     for (const auto& [name, value] : state_.attributes) out_.attributes.emplace_back(name, value);
-    out_.geometry = std::move(solid_);
+    if (!state_.facets.empty()) out_.geometry = std::move(solid_);
     return std::move(out_);
   }
 
@@ -195,7 +193,7 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
       throw DoubledFacet(corner);
   }
   for (const auto& [name, value] : labelled.attributes)
-    if (is_count(name)) state.attributes[name] = as_written(value);
+    if (is_of_state(name)) state.attributes[name] = as_written(value);
   return state;
 }
 

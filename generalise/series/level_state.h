@@ -28,14 +28,14 @@ class DoubledFacet : public GeometryError {
 
 /// The state of a building that has a geometry of its own, with vertices where the file has them.
 /// Vertices that become one are one; facets of which less than a triangle is left vanish. Of the
-/// attributes only counts (`oriel_removed_…`) belong to it. Throws DoubledFacet.
+/// attributes those belong to it that is_of_state(). Throws DoubledFacet.
 LevelState level_state(const LabelledBuilding& labelled, const Placer& place);
 
 /// The building of a state, to be written: facets in the order of the state. Facets with the same
 /// `oriel_id` have one semantic surface, others each their own; the parent of an opening is the
 /// surface other than an opening that it shares most of its edges with, by length. Shells are what
 /// hangs together by edges; one that encloses no volume but is turned inwards is a cavity of the
-/// smallest body around it.
+/// smallest body around it. Without facets it has no geometry.
 LabelledBuilding labelled_building(const LevelState& state, const Frame& frame);
 
 /// The state as a building that was read: its facets are the polygons of solids.

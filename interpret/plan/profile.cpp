@@ -326,11 +326,11 @@ std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, P
         fmt::format("the profile {} makes blocks, which are a level of detail: at a scale the "
                     "building keeps its form",
                     profile.title())));
-  if (profile.groups && use == ProfileUse::series) {
+  if (profile.groups && use == ProfileUse::tiles) {
     issues.push_back(profile_warning(
         profile, Code::R278,
-        fmt::format("the profile {} makes one of buildings that adjoin, which a series cannot take "
-                    "back; make each level by itself with --scale",
+        fmt::format("the profile {} makes one of buildings that adjoin, but tiles show some of "
+                    "them at another scale than the rest; make levels with --series",
                     profile.title())));
     issues.back().severity = Severity::error;
   } else if (profile.groups && (use == ProfileUse::level || !has_neighbours)) {

@@ -95,13 +95,15 @@ std::vector<std::string> embedded_profiles();
 enum class ProfileUse {
   level,  ///< its own level of detail
   scale,  ///< a map at some scale
-  series  ///< maps at several scales, and what leads from one to the next
+  series,  ///< maps at several scales, and what leads from one to the next
+  tiles    ///< the same, of which a viewer shows several at once
 };
 
 /// What of a profile has no effect, which is probably not meant: a warning R273 for each class that
 /// it names and the pack does not have, R276 if it asks for blocks at a scale, R277 if it asks for
 /// groups of buildings where nobody knows what stands beside them (`has_neighbours`), or not at a
-/// scale. An error R278 if it asks for groups in a series, whose log cannot hold them.
+/// scale. An error R278 if it asks for groups in tiles, which show buildings at several scales at
+/// once.
 std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base, ProfileUse use,
                                  bool has_neighbours = false);
 

@@ -8,7 +8,7 @@
 /// Every code that a finding can have: X(code, the number of val3dity's error that means the same
 /// or 0, what the code means), sorted. A code never changes its meaning and is never used again.
 /// Each has a section with this title in docs/errors.md, or in docs/rules.md for rule packs; those
-/// of profiles, R272 to R278, are in docs/generalisation.md, and those of experiments, R28x, in
+/// of profiles, R272 to R279, are in docs/generalisation.md, and those of experiments, R28x, in
 /// docs/experiments.md.
 ///
 /// E1xx the text of a file, E2xx the building model, E3xx geometry, E5xx limits, E6xx output, E9xx
@@ -71,6 +71,9 @@
   X(E177, 0, "Neighbours in another reference system") \
   X(E178, 0, "Walls that nearly touch") \
   X(E179, 0, "Two buildings with one id") \
+  X(E190, 0, "Ground to be kept free that cannot be read") \
+  X(E191, 0, "A building on ground that is kept free") \
+  X(E192, 0, "Ground to be kept free in another place") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that does not exist") \
@@ -157,6 +160,7 @@
   X(G421, 0, "Buildings that became one") \
   X(G422, 0, "A group that stays as it was") \
   X(G423, 0, "Neighbours of different heights") \
+  X(G440, 0, "A block that would cover ground to be kept free") \
   X(R200, 0, "The pack cannot be read") \
   X(R201, 0, "Not YAML") \
   X(R202, 0, "A key occurs twice") \
@@ -211,7 +215,8 @@
   X(R275, 0, "No such level of a profile") \
   X(R276, 0, "A form that a scale does not make") \
   X(R277, 0, "Groups without neighbours") \
-  X(R278, 0, "Groups in a series") \
+  X(R278, 0, "Groups in tiles") \
+  X(R279, 0, "Ground kept free without groups") \
   X(R280, 0, "A pattern that matches no file") \
   X(R281, 0, "A value beyond the range of its param") \
   X(R282, 0, "A split with nothing on one side") \

@@ -47,7 +47,7 @@ struct Reader::State {
       : format(format_to_read(path, options)),
         name{path == "-" ? "stdin" : path, 0},
         input(std::move(path)),
-        cityjson(options.lod, options.joins_installations),
+        cityjson(options.lod, options.joins_installations, options.keeps_emptied),
         citygml(input, name, std::move(options.lod), options.joins_installations,
                 options.notes_unread) {
     if (options.wants_sha256) input.hash();

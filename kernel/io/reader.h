@@ -25,6 +25,9 @@ struct ReadOptions {
   /// has them all: oriel writes such ones (`oriel_geometry`). They are labelled with the building;
   /// what is generalised, repaired or validated is the building alone.
   bool joins_installations = true;
+  /// Of CityJSON: a building whose geometry is part of another one's at this level of a series
+  /// (`oriel_member_of`) is read, too: without polygons. Else it is passed over.
+  bool keeps_emptied = false;
   /// What is read is hashed, too.
   bool wants_sha256 = false;
   /// Of CityGML it is noted what is passed over: Reader::take_unread().

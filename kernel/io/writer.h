@@ -31,6 +31,9 @@ struct WriteOptions {
   std::vector<std::string> gone{};
   /// Ids of buildings whose installations leave: what was there is part of a new geometry.
   std::vector<std::string> bared{};
+  /// Ids of buildings whose chosen geometry leaves; they stay, with their attributes. One that was
+  /// read without it (ReadOptions::keeps_emptied) stays so.
+  std::vector<std::string> emptied{};
   /// Of CityGML: installations become solids (citygml_text); CityJSON has them as they are.
   bool closes_installations = false;
   /// The scale is finer than the document's by so many powers of ten at least (see WrittenGrid).

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,14 +42,21 @@ struct LevelFacet {
   }
 };
 
+/// Attributes of a building that belong to its state: the counts `oriel_removed_…`, and of
+/// buildings that became one `oriel_members` (of the block) or `oriel_member_of` and
+/// `oriel_member_lod` (of the others, which have no facets).
+inline bool is_of_state(std::string_view attribute) {
+  return attribute.starts_with("oriel_removed_") || attribute.starts_with("oriel_member");
+}
+
 /// A building at one level of a series, as its file has it.
 struct LevelState {
   std::string building;
-  /// By outer ring, of which no two are the same.
+  /// By outer ring, of which no two are the same. None: the building is part of another one's block.
   std::map<MicrometreRing, LevelFacet> facets;
   /// The attributes of installations, by id.
   std::map<std::string, Members> installations;
-  /// The building's counts `oriel_removed_…`.
+  /// Those that is_of_state().
   std::map<std::string, MemberValue> attributes;
 
   friend bool operator==(const LevelState&, const LevelState&) = default;

@@ -48,6 +48,7 @@ std::optional<double> scale_in(const std::string& file, const std::string& start
 ReadOptions reading_levels(const std::string& lod) {
   ReadOptions options;
   options.joins_installations = false;
+  options.keeps_emptied = true;
   if (!lod.empty()) options.lod = lod;
   return options;
 }

@@ -73,6 +73,9 @@ class LevelMover {
     for (LevelState& state : *states.value) {
       const LevelState old = state;
       if (!move(state, operations.at(state.building))) return std::nullopt;
+      if (state.facets == old.facets && state.attributes == old.attributes &&
+          state.installations == old.installations)
+        continue;
       labelled.push_back(rewritten(old, state, document, options));
     }
     options.finer_digits = WrittenGrid(document, *states.value).finer_digits();
@@ -92,6 +95,7 @@ class LevelMover {
     LabelledBuilding labelled = labelled_building(state, building->frame);
     for (const auto& [name, value] : old.attributes)
       if (!state.attributes.contains(name)) labelled.dropped_attributes.push_back(name);
+    if (state.facets.empty()) options.emptied.push_back(state.building);
     for (const auto& [id, attributes] : old.installations)
       if (!state.installations.contains(id)) options.removed.push_back(id);
     return labelled;

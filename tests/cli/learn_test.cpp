@@ -20,7 +20,7 @@ std::string samples_labelled(const Folder& folder) {
   return records;
 }
 
-std::string truth_of(const std::string& name) {
+std::string truth_file(const std::string& name) {
   return std::string(ORIEL_SOURCE_DIR) + "/examples/samples/" + name + ".truth.json";
 }
 
@@ -45,9 +45,9 @@ TEST_SUITE("cli") {
     Words words{"learn",
                 records,
                 "--truth",
-                truth_of("house"),
-                truth_of("hip"),
-                truth_of("l-house"),
+                truth_file("house"),
+                truth_file("hip"),
+                truth_file("l-house"),
                 "--leave-one-out",
                 "--restarts",
                 "0",
@@ -76,14 +76,14 @@ TEST_SUITE("cli") {
       return run(words);
     };
     CHECK(learn_with({}).exit == 2);
-    CHECK(learn_with({"--truth", truth_of("house")}).says("R282"));
+    CHECK(learn_with({"--truth", truth_file("house")}).says("R282"));
     const std::string corrections = folder.write(
         "c.jsonl", R"({"building": "hip", "feature": ")" + first_id_of(records, "hip", "window") +
                        R"(", "class": "window", "by": "ada", "why": "glass"})"
                        "\n"
                        R"({"building": "barn", "feature": "f1", "class": "window"})"
                        "\n");
-    const Outcome both = learn_with({"--truth", truth_of("house"), "--corrections", corrections});
+    const Outcome both = learn_with({"--truth", truth_file("house"), "--corrections", corrections});
     CHECK(both.exit == 3);
     CHECK(both.says("E153"));
     CHECK(both.out.find("2 buildings") != std::string::npos);
@@ -95,8 +95,8 @@ TEST_SUITE("cli") {
     REQUIRE(run({"segment", sample("house"), sample("hip"), "--features", records, "--columns",
                  "aabb_m,width_m,height_m"})
                 .exit == 0);
-    const Outcome outcome = run({"learn", records, "--truth", truth_of("house"), truth_of("hip"),
-                                 "--leave-one-out", "--restarts", "0"});
+    const Outcome outcome = run({"learn", records, "--truth", truth_file("house"),
+                                 truth_file("hip"), "--leave-one-out", "--restarts", "0"});
     CHECK(outcome.exit == 3);
     CHECK_MESSAGE(outcome.says("E151"), outcome.err);
   }
@@ -108,7 +108,7 @@ TEST_SUITE("cli") {
     const auto learn_from_models = [&](std::chrono::hours later) {
       namespace fs = std::filesystem;
       fs::last_write_time(model, fs::last_write_time(records) + later);
-      return run({"learn", records, "--truth", truth_of("house"), truth_of("hip"), "--models",
+      return run({"learn", records, "--truth", truth_file("house"), truth_file("hip"), "--models",
                   model, "--leave-one-out", "--restarts", "0", "--params", "parapet"});
     };
     const Outcome old = learn_from_models(std::chrono::hours(1));
@@ -121,8 +121,8 @@ TEST_SUITE("cli") {
     const Folder folder;
     const std::string records = samples_labelled(folder);
     const auto learn_for = [&](Words more) {
-      Words words{"learn",         records,           "--truth",    truth_of("house"),
-                  truth_of("hip"), "--leave-one-out", "--restarts", "0"};
+      Words words{"learn",           records,           "--truth",    truth_file("house"),
+                  truth_file("hip"), "--leave-one-out", "--restarts", "0"};
       words.insert(words.end(), more.begin(), more.end());
       return run(words);
     };
@@ -149,12 +149,12 @@ TEST_SUITE("cli") {
       CHECK(outcome.err.find(code) != std::string::npos);
       CHECK_FALSE(std::filesystem::exists(out));
     };
-    refused({"--truth", truth_of("row")}, "R284");
-    refused({"--truth", truth_of("house")}, "R282");
-    refused({"--truth", truth_of("house"), truth_of("hip"), "--objective", "vent"}, "R283");
-    refused({"--truth", truth_of("house"), truth_of("hip"), "--params", "parpet"},
+    refused({"--truth", truth_file("row")}, "R284");
+    refused({"--truth", truth_file("house")}, "R282");
+    refused({"--truth", truth_file("house"), truth_file("hip"), "--objective", "vent"}, "R283");
+    refused({"--truth", truth_file("house"), truth_file("hip"), "--params", "parpet"},
             "did you mean 'parapet'");
-    CHECK(run({"learn", records, "--truth", truth_of("house"), "--objective", "best"}).exit == 2);
+    CHECK(run({"learn", records, "--truth", truth_file("house"), "--objective", "best"}).exit == 2);
     CHECK_FALSE(std::filesystem::exists(out));
   }
 }

@@ -89,6 +89,14 @@ void list_relatives(dom::object object, ObjectEntry& entry) {
   }
 }
 
+/// Of what is written with WriteOptions::emptied.
+std::optional<std::string> emptied_lod_of(dom::object object) {
+  const auto attributes = as_object(member(object, "attributes"));
+  if (!attributes || !member(*attributes, "oriel_member_of")) return std::nullopt;
+  const auto lod = as_string(member(*attributes, "oriel_member_lod"));
+  return std::string(lod.value_or(std::string_view()));
+}
+
 /// The number of the family of each entry.
 std::vector<std::size_t> families_of_entries(const std::vector<ObjectEntry>& entries) {
   std::vector<Relative> members;
@@ -123,6 +131,7 @@ std::string list_of(const Lods& lods) {
 GeometryChoice choose(const ObjectEntry& entry, Family& family,
                       const std::optional<std::string>& lod) {
   if (entry.fault) return {nullptr, entry.fault, Severity::error};
+  if (entry.emptied_lod && entry.geometries.empty()) return {};
   if (family.lods.empty()) {
     if (std::exchange(family.was_reported, true)) return {};
     return {nullptr,
@@ -214,6 +223,7 @@ std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods)
     else
       entry.fault = list_geometries(*object, has_number_lods, entry);
     if (object) list_relatives(*object, entry);
+    if (object) entry.emptied_lod = emptied_lod_of(*object);
     entries.push_back(std::move(entry));
   }
   return entries;

@@ -43,6 +43,8 @@ struct ObjectEntry {
   std::optional<Fault> fault;
   /// True if it has GeometryInstances, which are not read.
   bool has_instances = false;
+  /// The level of detail that it has lost to a block of its series (`oriel_member_of`).
+  std::optional<std::string> emptied_lod{};
 };
 
 /// A BuildingInstallation of "CityObjects" whose geometry is its own: not one that shares the

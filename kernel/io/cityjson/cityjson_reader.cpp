@@ -257,6 +257,17 @@ std::vector<GeometryPlace> join_installations(const std::vector<InstallationEntr
   return places;
 }
 
+/// A building whose geometry left.
+Building emptied_building(const ObjectEntry& entry, const Transform& transform,
+                          const std::string& crs) {
+  Building building;
+  building.id = entry.id;
+  building.lod = *entry.emptied_lod;
+  building.frame.crs = crs;
+  building.frame.origin_m = transform.translate;
+  return building;
+}
+
 /// The type of a CityObject; empty if there is none.
 std::string type_of(dom::object objects, std::string_view id) {
   const auto object = as_object(member(objects, id));
@@ -272,6 +283,7 @@ struct CityJsonReader::State {
   bool is_plain = false;  ///< what was parsed is plain.rest()
   std::optional<std::string> lod;
   bool joins_installations = false;
+  bool keeps_emptied = false;
   SequenceHeader header;
   std::string refused;
   IdSet ids;               ///< of the features so far
@@ -285,9 +297,11 @@ struct CityJsonReader::State {
                       Document& document, CityJsonSource& source, std::vector<Issue>& issues) const;
 };
 
-CityJsonReader::CityJsonReader(std::optional<std::string> lod, bool joins_installations)
+CityJsonReader::CityJsonReader(std::optional<std::string> lod, bool joins_installations,
+                               bool keeps_emptied)
     : state_(std::make_unique<State>()) {
   state_->lod = std::move(lod);
+  state_->keeps_emptied = keeps_emptied;
   state_->joins_installations = joins_installations;
 }
 
@@ -331,6 +345,12 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
   if (is_plain) geometries.use(plain, text);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ObjectEntry& entry = entries[i];
+    if (keeps_emptied && entry.emptied_lod) {
+      document.buildings.push_back(emptied_building(entry, source.transform, header.crs));
+      source.places.push_back({entry.number, kNoGeometry});
+      source.joined.emplace_back();
+      continue;
+    }
     const auto report = [&](Severity severity, const Fault& fault) {
       issues.push_back(finding_of(name, severity, entry.id, fault));
     };

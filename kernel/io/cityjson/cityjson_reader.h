@@ -23,8 +23,9 @@ struct SequenceHeader {
 /// Reads CityJSON records; keeps simdjson's buffers between them.
 class CityJsonReader {
  public:
-  /// Both as in ReadOptions.
-  CityJsonReader(std::optional<std::string> lod, bool joins_installations);
+  /// All as in ReadOptions.
+  CityJsonReader(std::optional<std::string> lod, bool joins_installations,
+                 bool keeps_emptied = false);
   ~CityJsonReader();
   CityJsonReader(const CityJsonReader&) = delete;
   CityJsonReader& operator=(const CityJsonReader&) = delete;

@@ -15,11 +15,14 @@ struct Transform {
   Vec3 translate;
 };
 
+/// The number of a geometry that is not there.
+inline constexpr std::size_t kNoGeometry = static_cast<std::size_t>(-1);
+
 /// Where a building's geometry stands in its text.
 struct GeometryPlace {
   /// The number of the member of "CityObjects".
   std::size_t object = 0;
-  /// The number of the element of its "geometry".
+  /// The number of the element of its "geometry", or kNoGeometry.
   std::size_t geometry = 0;
 };
 

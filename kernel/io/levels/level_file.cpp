@@ -1,10 +1,14 @@
 #include "kernel/io/levels/level_file.h"
 
+#include "kernel/io/cityjson/cityjson_geometry.h"
+#include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/io/cityjson/lod_name.h"
+#include "kernel/io/cityjson/write/fresh_cityjson.h"
 #include "kernel/io/json/text.h"
 #include "kernel/io/levels/written_grid.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -49,10 +53,11 @@ class LevelReader {
     LevelState state;
     state.building = id;
     const ordered_json& object = objects_.at(id);
-    add_geometry(chosen_geometry(object.at("geometry")), state);
     if (const auto found = object.find("attributes"); found != object.end())
       for (const auto& [name, value] : found->items())
-        if (name.starts_with("oriel_removed_")) state.attributes[name] = value_of(value);
+        if (is_of_state(name)) state.attributes[name] = value_of(value);
+    if (state.attributes.contains("oriel_member_of")) return state;
+    add_geometry(chosen_geometry(object.at("geometry")), state);
     if (const auto children = object.find("children"); children != object.end())
       for (const ordered_json& child : *children) add_installation(child.get<std::string>(), state);
     return state;
@@ -65,7 +70,6 @@ class LevelReader {
       ring.push_back(
           grid_point(vertices_.at(number.get<std::size_t>()).get<std::array<std::int64_t, 3>>(),
                      scale_, translate_));
-    if (ring.size() < 3) throw std::runtime_error("a ring has fewer than three points");
     std::ranges::rotate(ring, std::ranges::min_element(ring));
     return ring;
   }
@@ -84,28 +88,43 @@ class LevelReader {
     }
   }
 
-  /// Of the solids the first of the level of detail, or of the highest, as the Reader chooses.
+  /// How many arrays stand above the polygons of a geometry; nothing for one that has none.
+  static std::optional<int> depth_of(const ordered_json& geometry) {
+    const auto kind = detail::kind_of_geometry(geometry.at("type").get<std::string>());
+    return kind ? std::optional(kind->depth) : std::nullopt;
+  }
+
+  /// Of the level of detail, or of the highest, the first solid or else the first surfaces, as the
+  /// Reader chooses.
   [[nodiscard]] const ordered_json& chosen_geometry(const ordered_json& geometries) const {
     const ordered_json* chosen = nullptr;
+    int depth = 0;
     for (const ordered_json& geometry : geometries) {
-      const std::string type = geometry.at("type").get<std::string>();
-      if (type != "Solid" && type != "MultiSolid") continue;
+      const auto its = depth_of(geometry);
+      if (!its) continue;
       if (!lod_.empty() && detail::lod_name(geometry.at("lod").dump()) != lod_) continue;
-      if (chosen == nullptr || geometry.at("lod") > chosen->at("lod")) chosen = &geometry;
+      const bool is_same = chosen != nullptr && geometry.at("lod") == chosen->at("lod");
+      const bool is_solid_first = is_same && depth == 0 && *its > 0;
+      if (chosen != nullptr && !is_solid_first && !(geometry.at("lod") > chosen->at("lod")))
+        continue;
+      chosen = &geometry;
+      depth = *its;
     }
-    if (chosen == nullptr) throw std::runtime_error("it has no solid");
+    if (chosen == nullptr) throw std::runtime_error("it has no geometry");
     return *chosen;
   }
 
   void add_geometry(const ordered_json& geometry, LevelState& state) const {
-    const std::string type = geometry.at("type").get<std::string>();
     const auto semantics = geometry.find("semantics");
     const ordered_json* values = semantics == geometry.end() ? nullptr : &semantics->at("values");
-    for_each_polygon(geometry.at("boundaries"), values, type == "Solid" ? 1 : 2,
+    for_each_polygon(geometry.at("boundaries"), values, *depth_of(geometry),
                      [&](const ordered_json& polygon, const ordered_json* value) {
+                       MicrometreRing outer = ring_of(polygon.at(0));
+                       if (outer.size() < 3) return;
                        LevelFacet facet;
                        for (std::size_t i = 1; i < polygon.size(); ++i)
                          facet.holes.push_back(ring_of(polygon[i]));
+                       std::erase_if(facet.holes, [](const auto& hole) { return hole.size() < 3; });
                        std::ranges::sort(facet.holes);
                        if (value != nullptr && value->is_number()) {
                          const ordered_json& surface =
@@ -113,7 +132,7 @@ class LevelReader {
                          facet.type = surface.at("type").get<std::string>();
                          facet.members = members_of(surface, {"type", "parent", "children"});
                        }
-                       state.facets.emplace(ring_of(polygon.at(0)), std::move(facet));
+                       state.facets.emplace(std::move(outer), std::move(facet));
                      });
   }
 
@@ -164,6 +183,20 @@ Checked<std::vector<LevelState>> read_level(std::string_view text, const std::st
   }
   out.value = std::move(states);
   return out;
+}
+
+LevelState state_as_read(const Document& document, const Building& building) {
+  const detail::CityJsonSource fresh =
+      document.source ? detail::CityJsonSource{} : detail::fresh_cityjson(document.buildings);
+  const detail::CityJsonSource& source = document.source ? *document.source : fresh;
+  const auto [scale, translate] = source.transform;
+  ordered_json header;
+  header["transform"]["scale"] = {scale.x, scale.y, scale.z};
+  header["transform"]["translate"] = {translate.x, translate.y, translate.z};
+  auto states =
+      read_level(source.text, document.name, {building.id}, header.dump(), building.lod);
+  if (!states.value) throw GeometryError(states.issues.front().sentence);
+  return std::move(states.value->front());
 }
 
 }  // namespace oriel

@@ -102,6 +102,7 @@ class CityJsonWriter {
       : existing_(options.existing),
         gone_(options.gone.begin(), options.gone.end()),
         bared_(options.bared),
+        emptied_(options.emptied.begin(), options.emptied.end()),
         least_digits_(options.finer_digits),
         source_(source),
         document_(document),
@@ -144,7 +145,8 @@ class CityJsonWriter {
 
   /// Starts the exchange of vertices if a geometry is replaced.
   void make_pool(const std::vector<LabelledBuilding>& labelled) {
-    if (std::ranges::none_of(labelled, [](const auto& one) { return one.geometry.has_value(); }))
+    if (emptied_.empty() &&
+        std::ranges::none_of(labelled, [](const auto& one) { return one.geometry.has_value(); }))
       return;
     if (!source_.is_feature)
       digits_ = std::max(least_digits_, detail::finer_digits(source_.transform));
@@ -154,9 +156,12 @@ class CityJsonWriter {
   void relabel(const LabelledBuilding& labelled) {
     const std::size_t index = building_index(labelled.building);
     const detail::GeometryPlace place = source_.places[index];
+    if (emptied_.contains(labelled.building)) return empty(place, labelled);
     RawNode object(objects_.value(place.object), arrays_);
     RawNode geometries(object.value_of("geometry"), arrays_);
-    const std::size_t number = make_room(geometries, place, labelled);
+    const bool is_emptied = place.geometry == detail::kNoGeometry;
+    const std::size_t number = is_emptied ? put_back(geometries, document_.buildings[index].lod)
+                                          : make_room(geometries, place, labelled);
     RawNode geometry(geometries.value(number), arrays_);
     std::vector<std::string> facets;
     std::vector<std::string_view> polygons;
@@ -170,7 +175,7 @@ class CityJsonWriter {
       drop_joined(index, *labelled.geometry);
     else
       fill_joined(index, labelled, polygons);
-    if (!labelled.lod.empty()) {
+    if (!labelled.lod.empty() && !is_emptied) {
       const RawNode source(geometries.value(place.geometry), arrays_);
       geometry.set("lod", detail::lod_text(labelled.lod, source.value_of("lod")));
     }
@@ -188,6 +193,27 @@ class CityJsonWriter {
     objects_.set(place.object, object.text());
     for (std::size_t i = 0; i < installations.size(); ++i)
       put_object(labelled.installations[i].id, std::move(installations[i]));
+  }
+
+  void empty(detail::GeometryPlace place, const LabelledBuilding& labelled) {
+    RawNode object(objects_.value(place.object), arrays_);
+    if (place.geometry != detail::kNoGeometry) {
+      RawNode geometries(object.value_of("geometry"), arrays_);
+      geometries.erase(place.geometry);
+      object.set("geometry", std::move(geometries));
+      object.erase("geographicalExtent");
+    }
+    drop_members(object, "attributes", labelled.dropped_attributes);
+    set_members(object, "attributes", labelled.attributes);
+    objects_.set(place.object, object.text());
+  }
+
+  /// A geometry for a building that was read without one.
+  static std::size_t put_back(RawNode& geometries, const std::string& lod) {
+    RawNode geometry(R"({"type":"Solid"})");
+    geometry.set("lod", detail::lod_text(lod, {}));
+    geometries.push_back(geometry.text());
+    return geometries.size() - 1;
   }
 
   /// Which element of "geometry" a labelled building is written to. Geometries that have its level
@@ -478,6 +504,7 @@ class CityJsonWriter {
   ExistingSemantics existing_;
   std::unordered_set<std::string> gone_;
   const std::vector<std::string>& bared_;
+  std::unordered_set<std::string> emptied_;
   int least_digits_ = 0;
   const detail::CityJsonSource& source_;
   const Document& document_;
