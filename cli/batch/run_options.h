@@ -2,6 +2,7 @@
 
 #include "kernel/base/issue.h"
 #include "kernel/model/building.h"
+#include "kernel/neighbours/kept_ground.h"
 #include "oriel/label.h"
 #include "oriel/read.h"
 
@@ -107,6 +108,10 @@ struct RunOptions {
   std::vector<std::string> neighbours_of;
   /// What was found there; null: nothing was asked for.
   std::shared_ptr<const NeighbourSearch> neighbours;
+  /// --keep-free, as often as it was given: files of roads and parcels.
+  std::vector<std::string> keep_free;
+  /// What they have; null: nothing was asked for.
+  std::shared_ptr<const KeptGround> kept;
 
   [[nodiscard]] ReadOptions read_options() const;
   /// The same for one of the inputs: stdin is a CityJSONSeq unless --from says more.

@@ -114,7 +114,20 @@ std::shared_ptr<const CityGroups> groups_of(const GeneraliseArguments& arguments
       !asks_for_groups(targets.profiles[0], *targets.scale))
     return nullptr;
   return std::make_shared<CityGroups>(*arguments.neighbours, targets.profiles[0], *targets.scale,
-                                      shares_in_arena(arguments.jobs));
+                                      shares_in_arena(arguments.jobs), arguments.kept.get());
+}
+
+/// Roads and parcels only concern buildings that become one.
+void check_kept(const GeneraliseArguments& arguments, bool has_groups, Report& report) {
+  if (!arguments.kept || has_groups) return;
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::R279;
+  issue.sentence =
+      "--keep-free has no effect: no building becomes part of a block, which needs --neighbours "
+      "and a profile with 'buildings' for the scale";
+  issue.place.file = arguments.keep_free.front();
+  report.add(issue);
 }
 
 /// What the counts of features begin with, before the label.
@@ -172,13 +185,15 @@ class Generaliser final : public ProducingCommand {
     return places;
   }
   [[nodiscard]] std::string recipe() const override {
-    return fmt::format("generalise {} explain={} json={} metrics={} {}", targets_.recipe(),
+    return fmt::format("generalise {} kept={} explain={} json={} metrics={} {}", targets_.recipe(),
+                       arguments_.kept ? arguments_.kept->sha256() : "",
                        !arguments_.explain.empty(), arguments_.explain.ends_with(".jsonl"),
                        changes_.has_metrics(), outputs_.recipe());
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
   std::map<std::string, int>* counts() override { return &counts_; }
 
+  [[nodiscard]] bool has_groups() const { return groups_ != nullptr; }
   /// Features that are gone, by label.
   [[nodiscard]] std::map<std::string, int> removed() const { return counted(kRemoved); }
   [[nodiscard]] std::vector<Issue> take_issues() { return outputs_.take_issues(); }
@@ -284,16 +299,19 @@ std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const 
     refuse_usage("--series", Code::G414,
                  "does not work with --explain and --metrics, which are for one scale");
   const std::vector<double> scales = scales_of(arguments.series, "--series");
+  if (arguments.target.profile.empty()) check_kept(arguments, false, report);
   if (arguments.target.profile.empty())
     return write_series(arguments, scales, std::nullopt, rules, report);
   const auto profile = load_profile_file(arguments.target.profile);
   check_level("--profile", profile.issues);
   report.add(profile.issues);
   if (!profile.value) return ExitCode::rules;
-  const auto unfit = check_profile(*profile.value, rules, ProfileUse::series,
-                                   arguments.neighbours != nullptr);
+  const auto unfit =
+      check_profile(*profile.value, rules, ProfileUse::series, arguments.neighbours != nullptr);
   report.add(unfit);
   if (has_errors(unfit)) return ExitCode::rules;
+  check_kept(arguments, arguments.neighbours && asks_for_groups(*profile.value, scales.back()),
+             report);
   return write_series(arguments, scales, profile.value, rules, report);
 }
 
@@ -338,6 +356,7 @@ ExitCode work(GeneraliseArguments& arguments) {
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   find_neighbours(arguments, report);
+  find_kept_ground(arguments);
   if (const auto code = make_series(arguments, *rules, report)) return *code;
   const auto targets =
       targets_of(arguments.target, *rules, arguments.neighbours != nullptr, report);
@@ -346,6 +365,7 @@ ExitCode work(GeneraliseArguments& arguments) {
     arguments.stl_solids = StlSolids::by_class;
   BatchRunner runner(arguments, &*rules, report);
   Generaliser command(arguments, *targets, *rules, runner);
+  check_kept(arguments, command.has_groups(), report);
   const ExitCode code = runner.run(command);
   if (runner.was_done()) return code;
   if (const auto lacking = command.lacking_columns()) report.add(*lacking);
@@ -393,6 +413,12 @@ void add_generalise(CLI::App& app, Action& action) {
                       "and why: text, or JSON lines if the name ends in .jsonl");
   command->add_option("--metrics", arguments->metrics,
                       "Write figures before and after, one JSON line per building and target");
+  command
+      ->add_option("--keep-free", arguments->keep_free,
+                   "GeoJSON or CityJSON with roads and parcels, in the reference system of the "
+                   "buildings: no block of buildings that become one covers them (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command->add_option("--profile", arguments->target.profile,
                       "What to do with features that the pack has no entry for: NAME[:LEVEL] or a "
                       "file (default with --to-lod: lod; with --scale: they stay). Without a "

@@ -261,7 +261,7 @@ class SeriesWriter final : public VisitingCommand {
       options_.groups.push_back(
           asks_for_groups(*options_.profile, scale)
               ? std::make_shared<CityGroups>(*options_.neighbours, *options_.profile, scale,
-                                             shares_in_arena(arguments.jobs))
+                                             shares_in_arena(arguments.jobs), arguments.kept.get())
               : nullptr);
   }
 

@@ -1,6 +1,7 @@
 #include "generalise/city/city_groups.h"
 
 #include "kernel/base/counted.h"
+#include "kernel/blocks/gabled_block.h"
 #include "kernel/blocks/simplify_outlines.h"
 #include "kernel/blocks/upright_block.h"
 #include "kernel/geometry/boxes.h"
@@ -24,6 +25,15 @@ using detail::Outline;
 using detail::PlanArea;
 
 constexpr double kMillimetreOnMap = 1e-3;
+/// A building stands on ground that is to be kept free, not only at its rim (as buildings overlap,
+/// E175).
+constexpr double kOnKept_m2 = 0.5;
+/// What a block gains of such ground is no more than rounding.
+constexpr double kGained_m2 = 0.01;
+/// A gable is higher, and so are walls under its eaves.
+constexpr double kLeastGable_m = 0.5;
+/// A facet is part of the roof or the ground, not upright, by its normal.
+constexpr double kNotUpright = 0.1;
 
 /// The outer outline, and courtyards that are not too small.
 std::vector<Outline> outlines_to_draw(const PlanArea& area, double least_yard_m2) {
@@ -90,17 +100,26 @@ bool asks_for_groups(const Profile& profile, double scale) {
 }
 
 CityGroups::CityGroups(const NeighbourSearch& search, const Profile& profile, double scale,
-                       const ForEachShare& each)
-    : search_(search), group_of_(search.size(), -1), unlike_(search.size()) {
+                       const ForEachShare& each, const KeptGround* kept)
+    : search_(search),
+      group_of_(search.size(), -1),
+      unlike_(search.size()),
+      kept_apart_(search.size()),
+      kept_(kept) {
   if (!asks_for_groups(profile, scale)) return;
   // What is no longer than the gaps that are closed is not seen in an outline either.
   const double least_m = profile.groups->gap_mm * kMillimetreOnMap * scale;
-  const GroupingLimits limits{least_m, profile.groups->like_height_m};
+  const GroupingLimits limits{least_m, profile.groups->like_height_m, kept};
   AlikeGroups found = alike_groups(search, limits);
   for (AlikeGroup& group : found.groups) {
     for (const std::size_t member : group.members)
       group_of_[member] = static_cast<int>(groups_.size());
-    groups_.push_back({std::move(group), std::nullopt, {}});
+    groups_.push_back({std::move(group), std::nullopt, false, Code::G422, {}});
+    look_at_kept(groups_.back());
+  }
+  for (const auto& [i, k] : found.kept_apart) {
+    kept_apart_[i].push_back(k);
+    kept_apart_[k].push_back(i);
   }
   for (const auto& [i, k] : found.unlike) {
     unlike_[i].push_back(k);
@@ -109,8 +128,53 @@ CityGroups::CityGroups(const NeighbourSearch& search, const Profile& profile, do
   each(groups_.size(), [&](std::size_t i) { make_solid(groups_[i], profile, least_m); });
 }
 
+/// How much of it the members of a group cover already.
+void CityGroups::look_at_kept(DrawnGroup& group) {
+  if (kept_ == nullptr) return;
+  for (const std::size_t member : group.found.members) {
+    const StandingBuilding& one = search_.buildings()[member];
+    double sum_m2 = 0;
+    for (const auto& piece : one.ground) sum_m2 += kept_->under_m2(piece, one.origin_m);
+    if (sum_m2 <= kOnKept_m2) continue;
+    on_kept_m2_.emplace(member, sum_m2);
+    group.code = Code::G440;
+    group.fault = fmt::format("'{}' stands on ground that is to be kept free", one.id);
+  }
+}
+
+bool CityGroups::covers_kept(DrawnGroup& group, const std::vector<Outline>& outlines) const {
+  if (kept_ == nullptr) return false;
+  double members_m2 = 0;
+  for (const std::size_t member : group.found.members)
+    for (const auto& piece : search_.buildings()[member].ground)
+      members_m2 += kept_->under_m2(piece, search_.buildings()[member].origin_m);
+  const Vec3 origin_m = search_.buildings()[group.found.members.front()].origin_m;
+  const double gained_m2 = kept_->under_m2(outlines, origin_m) - members_m2;
+  if (gained_m2 <= kGained_m2) return false;
+  group.code = Code::G440;
+  group.fault =
+      fmt::format("it would cover {:.2f} m2 of ground that is to be kept free", gained_m2);
+  return true;
+}
+
+/// One gable over the whole block, if it is long enough for that and the members have such roofs.
+void CityGroups::make_gabled(DrawnGroup& group, const std::vector<Outline>& outlines) const {
+  const AlikeGroup& found = group.found;
+  if (!found.gable || outlines.size() != 1) return;
+  const auto outline = detail::under_ridge(outlines[0], found.gable->ridge);
+  const double eaves_m = found.gable->eaves_m, ridge_m = found.gable->ridge_m;
+  if (!outline || ridge_m - eaves_m < kLeastGable_m || eaves_m - found.ground_m < kLeastGable_m)
+    return;
+  Building faces = detail::faces_of({*outline, found.ground_m, eaves_m, ridge_m}, found.grid_m);
+  faces.id = id(found.members.front());
+  if (!validate(faces).empty()) return;
+  group.solid = detail::solid_of(faces, Tolerances{});
+  group.is_gabled = group.solid.has_value();
+}
+
 void CityGroups::make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const {
   const AlikeGroup& found = group.found;
+  if (!group.fault.empty()) return;
   if (found.areas.size() != 1) {
     group.fault = found.areas.empty() ? "it covers no ground" : "its ground falls apart";
     return;
@@ -123,9 +187,20 @@ void CityGroups::make_solid(DrawnGroup& group, const Profile& profile, double le
   detail::UprightBlock block{outlines_to_draw(found.areas[0], profile.least_piece_m2),
                              found.ground_m, found.roof_m};
   const Outsiders outsiders(search_, found);
-  const auto may_cover = [&](const Box& box) { return outsiders.are_clear_of(box); };
+  const Vec3 origin_m = search_.buildings()[found.members.front()].origin_m;
+  const auto may_cover = [&](const Box& box) {
+    if (!outsiders.are_clear_of(box)) return false;
+    const Outline around{{box.min.x, box.min.y, 0},
+                         {box.max.x, box.min.y, 0},
+                         {box.max.x, box.max.y, 0},
+                         {box.min.x, box.max.y, 0}};
+    return kept_ == nullptr || kept_->under_m2(std::span(&around, 1), origin_m) <= kGained_m2;
+  };
   const auto is_fixed = [&](Vec3 p, Vec3 q) { return outsiders.stand_against(p, q); };
   detail::simplify_outlines(block.outlines, {least_edge_m, tolerances.weld_m, may_cover, is_fixed});
+  if (covers_kept(group, block.outlines)) return;
+  make_gabled(group, block.outlines);
+  if (group.is_gabled) return;
   Building faces = detail::faces_of({block});
   faces.id = id(found.members.front());
   const auto findings = validate(faces);
@@ -163,17 +238,25 @@ std::vector<Issue> CityGroups::issues_of(const Neighbourhood& building) const {
         fmt::format("adjoins '{}', but their roofs differ too much in height: both stay by "
                     "themselves",
                     id(other)));
+  for (const std::size_t other : kept_apart_[self])
+    add(Severity::note, Code::G440,
+        fmt::format("stays apart from '{}': the gap between them is ground that is to be kept free",
+                    id(other)));
+  if (const auto on_kept = on_kept_m2_.find(self); on_kept != on_kept_m2_.end())
+    add(Severity::warning, Code::E191,
+        fmt::format("covers {:.2f} m2 of ground that is to be kept free", on_kept->second));
   if (group_of_[self] < 0) return issues;
   const DrawnGroup& group = groups_[static_cast<std::size_t>(group_of_[self])];
   const std::size_t first = group.found.members.front(), others = group.found.members.size() - 1;
   if (group.solid && first == self)
     add(Severity::note, Code::G421,
-        fmt::format("became one block with {}", counted(others, "other")));
+        fmt::format("became one block with {}{}", counted(others, "other"),
+                    group.is_gabled ? ", under one gable" : ""));
   else if (group.solid)
     add(Severity::note, Code::G421, fmt::format("became part of '{}'", id(first)));
   else if (first == self)
-    add(Severity::warning, Code::G422,
-        fmt::format("and {} that {} it stay as they were, as they make no valid block: {}",
+    add(Severity::warning, group.code,
+        fmt::format("and {} that {} it stay as they were, as no block comes of them: {}",
                     counted(others, "other"), agreeing(others, "adjoins", "adjoin"), group.fault));
   return issues;
 }
@@ -185,11 +268,14 @@ Redrawn drawn_group(const LabelledBuilding& labelled, const Solid& solid,
   out.labelled.attributes = labelled.attributes;
   out.labelled.attributes.emplace_back("oriel_members", fmt::format("{}", fmt::join(members, ";")));
   for (const Facet& facet : solid.facets) {
-    const auto up = solid.planes[facet.plane.index()].coefficients[2];
+    const auto& plane = solid.planes[facet.plane.index()].coefficients;
+    const double up = normalised(Vec3{static_cast<double>(plane[0]), static_cast<double>(plane[1]),
+                                      static_cast<double>(plane[2])})
+                          .z;
     out.labelled.surface_of_polygon.push_back(static_cast<int>(out.labelled.surfaces.size()));
-    out.labelled.surfaces.push_back({up > 0   ? "RoofSurface"
-                                     : up < 0 ? "GroundSurface"
-                                              : "WallSurface",
+    out.labelled.surfaces.push_back({up > kNotUpright    ? "RoofSurface"
+                                     : up < -kNotUpright ? "GroundSurface"
+                                                         : "WallSurface",
                                      -1,
                                      {}});
   }

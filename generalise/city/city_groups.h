@@ -7,9 +7,11 @@
 #include "kernel/model/building.h"
 #include "kernel/model/solid.h"
 #include "kernel/neighbours/alike_groups.h"
+#include "kernel/neighbours/kept_ground.h"
 #include "kernel/neighbours/neighbours.h"
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,9 +25,10 @@ namespace oriel {
 class CityGroups {
  public:
   /// What the profile asks for at the scale, of the buildings of a search, which outlives it. All
-  /// solids are made, in shares by what `each` calls.
+  /// solids are made, in shares by what `each` calls. No block covers more of the ground to be
+  /// `kept` free than its members do; null: none is.
   CityGroups(const NeighbourSearch& search, const Profile& profile, double scale,
-             const ForEachShare& each = for_each_in_turn);
+             const ForEachShare& each = for_each_in_turn, const KeptGround* kept = nullptr);
 
   /// What becomes of one building.
   struct Membership {
@@ -41,17 +44,25 @@ class CityGroups {
   [[nodiscard]] std::vector<std::string> members(std::size_t group) const;
   [[nodiscard]] std::size_t size() const { return groups_.size(); }
   /// What was found at a building: G421 (note) for each that became part of a group, G422 (warning)
-  /// where no valid solid came of one, G423 (note) where adjoining buildings are not alike.
+  /// where no valid solid came of one, G423 (note) where adjoining buildings are not alike; G440
+  /// where ground is to be kept free: a note at a gap, a warning for a group; E191 (warning) for a
+  /// building that stands on such ground.
   [[nodiscard]] std::vector<Issue> issues_of(const Neighbourhood& building) const;
 
  private:
   struct DrawnGroup {
     AlikeGroup found;
     std::optional<Solid> solid;  ///< nothing: its members stay as they were
-    std::string fault;           ///< why
+    bool is_gabled = false;
+    Code code = Code::G422;  ///< why
+    std::string fault;
   };
 
   void make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const;
+  void make_gabled(DrawnGroup& group, const std::vector<detail::Outline>& outlines) const;
+  [[nodiscard]] bool covers_kept(DrawnGroup& group,
+                                 const std::vector<detail::Outline>& outlines) const;
+  void look_at_kept(DrawnGroup& group);
   [[nodiscard]] const std::string& id(std::size_t building) const {
     return search_.buildings()[building].id;
   }
@@ -61,6 +72,11 @@ class CityGroups {
   std::vector<int> group_of_;  ///< by building; -1: none
   /// By building: those that adjoin it and are of another height.
   std::vector<std::vector<std::size_t>> unlike_;
+  /// By building: those from which it stays apart.
+  std::vector<std::vector<std::size_t>> kept_apart_;
+  const KeptGround* kept_;
+  /// By building: how much of the ground to be kept free it stands on, m2.
+  std::map<std::size_t, double> on_kept_m2_;
 };
 
 /// True if the profile asks for groups at the scale.

@@ -93,8 +93,8 @@ std::vector<std::string> embedded_profiles();
 
 /// What a profile is used for.
 enum class ProfileUse {
-  level,  ///< its own level of detail
-  scale,  ///< a map at some scale
+  level,   ///< its own level of detail
+  scale,   ///< a map at some scale
   series,  ///< maps at several scales, and what leads from one to the next
   tiles    ///< the same, of which a viewer shows several at once
 };

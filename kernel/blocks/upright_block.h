@@ -19,6 +19,9 @@ struct UprightBlock {
 /// The walls, tops and ground faces of blocks that do not touch each other: one body for each.
 Building faces_of(const std::vector<UprightBlock>& blocks);
 
+/// The solid that faces make; nothing if it does not close.
+std::optional<Solid> solid_of(const Building& faces, const Tolerances& tolerances);
+
 /// The solid that they make; nothing if it does not close.
 std::optional<Solid> solid_of(const std::vector<UprightBlock>& blocks,
                               const Tolerances& tolerances);

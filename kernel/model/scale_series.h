@@ -52,7 +52,8 @@ inline bool is_of_state(std::string_view attribute) {
 /// A building at one level of a series, as its file has it.
 struct LevelState {
   std::string building;
-  /// By outer ring, of which no two are the same. None: the building is part of another one's block.
+  /// By outer ring, of which no two are the same. None: the building is part of another one's
+  /// block.
   std::map<MicrometreRing, LevelFacet> facets;
   /// The attributes of installations, by id.
   std::map<std::string, Members> installations;

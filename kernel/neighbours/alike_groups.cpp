@@ -23,6 +23,9 @@ constexpr double kGapLean = 0.1736;
 /// A strip that covers more of a third building's ground does not only touch it.
 constexpr double kCovered_m2 = 0.01;
 
+/// Ridges run alike to 10 degrees.
+constexpr double kRidgeLean = 0.1736;
+
 double shared_ground_m2(const PlanArea& strip, const std::vector<PlanArea>& ground) {
   double sum_m2 = 0;
   for (const PlanArea& area : ground) sum_m2 += detail::shared_area_m2(strip, area, {0, 0, 1});
@@ -74,10 +77,18 @@ class GroupFinder {
   void join(std::size_t i, std::size_t k) {
     if (at(i).crs != at(k).crs || at(i).ground.empty() || at(k).ground.empty()) return;
     std::vector<PlanArea> strips = strips_between(i, k);
+    const bool has_gap = !strips.empty();
+    if (limits_.kept != nullptr)
+      std::erase_if(strips, [&](const PlanArea& strip) {
+        return limits_.kept->under_m2(strip, at(i).origin_m) > kCovered_m2;
+      });
     const bool does_touch =
         detail::contact_between(at(i), at(k), at(k).origin_m - at(i).origin_m, nullptr).area_m2 >=
         kContact_m2;
-    if (!does_touch && strips.empty()) return;
+    if (!does_touch && strips.empty()) {
+      if (has_gap) out_.kept_apart.emplace_back(i, k);
+      return;
+    }
     const double apart_m =
         std::abs(at(i).roof_m + at(i).origin_m.z - at(k).roof_m - at(k).origin_m.z);
     if (apart_m > limits_.like_height_m) {
@@ -120,7 +131,7 @@ class GroupFinder {
       group.ground_m = std::min(group.ground_m, one.ground_m + up_m);
       roof += one.ground_m2 * (one.roof_m + up_m);
     }
-    const double grid_m = grid_of(areas);
+    const double grid_m = group.grid_m = grid_of(areas);
     add_strips(members, origin_m, areas);
     group.roof_m = rounded_to(roof / group.ground_m2, grid_m);
     group.ground_m = rounded_to(group.ground_m, grid_m);
@@ -128,8 +139,34 @@ class GroupFinder {
     for (PlanArea& area : group.areas)
       for (Outline& outline : area)
         for (Vec3& p : outline) p = {rounded_to(p.x, grid_m), rounded_to(p.y, grid_m), 0};
+    group.gable = common_gable(members, group.ground_m2, origin_m, grid_m);
     group.members = std::move(members);
     return group;
+  }
+
+  /// As the largest of the members has it, if others have it, too.
+  [[nodiscard]] std::optional<GabledRoof> common_gable(const std::vector<std::size_t>& members,
+                                                       double all_m2, Vec3 origin_m,
+                                                       double grid_m) const {
+    const StandingBuilding* largest = nullptr;
+    for (const std::size_t member : members)
+      if (at(member).gable && (largest == nullptr || at(member).ground_m2 > largest->ground_m2))
+        largest = &at(member);
+    if (largest == nullptr) return std::nullopt;
+    GabledRoof roof{largest->gable->ridge, 0, 0};
+    double sum_m2 = 0;
+    for (const std::size_t member : members) {
+      const StandingBuilding& one = at(member);
+      if (!one.gable || std::abs(cross(one.gable->ridge, roof.ridge).z) > kRidgeLean) continue;
+      const double up_m = one.origin_m.z - origin_m.z;
+      sum_m2 += one.ground_m2;
+      roof.ridge_m += one.ground_m2 * (one.gable->ridge_m + up_m);
+      roof.eaves_m += one.ground_m2 * (one.gable->eaves_m + up_m);
+    }
+    if (sum_m2 <= all_m2 / 2) return std::nullopt;
+    roof.ridge_m = rounded_to(roof.ridge_m / sum_m2, grid_m);
+    roof.eaves_m = rounded_to(roof.eaves_m / sum_m2, grid_m);
+    return roof;
   }
 
   void add_strips(const std::vector<std::size_t>& members, Vec3 origin_m,

@@ -62,6 +62,9 @@ std::string key_of(const StandingBuilding& building) {
   for (const UprightWall& wall : building.walls) append_outlines(bytes, wall.outlines);
   for (const auto& piece : building.ground) append_outlines(bytes, piece);
   append_number(bytes, building.roof_m);
+  if (building.gable)
+    append_outlines(
+        bytes, {{building.gable->ridge, {building.gable->ridge_m, building.gable->eaves_m, 0}}});
   return sha256(bytes);
 }
 

@@ -5,6 +5,7 @@
 #include "kernel/model/tolerances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -42,6 +43,9 @@ struct GentlePolygon {
   std::vector<Outline> outlines;  ///< seen from above
   double area_m2 = 0;
   double mean_m = 0;  ///< of its corners' heights
+  double low_m = 0, high_m = 0;
+  double up = 0;  ///< of its normal
+  Vec3 falls_to;  ///< level, of length 1; nothing of one that is level
   bool looks_up = false;
   bool is_low = false;
 };
@@ -58,7 +62,42 @@ double roof_height_m(const std::vector<GentlePolygon>& flats, double otherwise_m
   return all_m2 > 0 ? sum / all_m2 : otherwise_m;
 }
 
-void take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out) {
+constexpr double kSameSide = 0.9848;  // the cosine of 10 degrees
+constexpr double kFlatRoof = 0.9848;  // upwards to 10 degrees
+constexpr double kOfRoof = 0.8, kOfEachSide = 0.2;
+
+/// The steeper ones by their largest: which way it falls is across the ridge.
+std::optional<GabledRoof> gabled_roof(const std::vector<GentlePolygon>& flats) {
+  const GentlePolygon* largest = nullptr;
+  double all_m2 = 0;
+  const auto is_roof = [](const GentlePolygon& flat) { return flat.looks_up && !flat.is_low; };
+  for (const GentlePolygon& flat : flats) {
+    if (!is_roof(flat)) continue;
+    all_m2 += flat.area_m2;
+    if (flat.up <= kFlatRoof && (largest == nullptr || flat.area_m2 > largest->area_m2))
+      largest = &flat;
+  }
+  if (largest == nullptr) return std::nullopt;
+  std::array<double, 2> sides_m2{};
+  GabledRoof roof;
+  roof.ridge = {-largest->falls_to.y, largest->falls_to.x, 0};
+  for (const GentlePolygon& flat : flats) {
+    const double side = dot(flat.falls_to, largest->falls_to);
+    if (!is_roof(flat) || flat.up > kFlatRoof || std::abs(side) < kSameSide) continue;
+    sides_m2[side > 0 ? 0 : 1] += flat.area_m2;
+    roof.ridge_m += flat.area_m2 * flat.high_m;
+    roof.eaves_m += flat.area_m2 * flat.low_m;
+  }
+  const double both_m2 = sides_m2[0] + sides_m2[1];
+  if (both_m2 < kOfRoof * all_m2 || std::min(sides_m2[0], sides_m2[1]) < kOfEachSide * all_m2)
+    return std::nullopt;
+  roof.ridge_m /= both_m2;
+  roof.eaves_m /= both_m2;
+  return roof;
+}
+
+/// True if what looks down is the ground.
+bool take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out) {
   double low_m2 = 0, up_m2 = 0;
   for (const GentlePolygon& flat : flats) {
     if (flat.is_low) low_m2 += flat.area_m2;
@@ -70,6 +109,7 @@ void take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out) {
     out.ground_m2 += flat.area_m2;
     out.ground.push_back(std::move(flat.outlines));
   }
+  return has_ground;
 }
 
 }  // namespace
@@ -99,7 +139,12 @@ StandingBuilding standing_building(const Building& building) {
     GentlePolygon flat;
     for (const Vec3 p : outlines[0]) flat.mean_m += p.z / static_cast<double>(outlines[0].size());
     flat.looks_up = normal.z > 0;
+    flat.up = normal.z;
+    const Vec3 level{normal.x, normal.y, 0};
+    if (length(level) > 0) flat.falls_to = normalised(level);
     const Box box = box_of_outline(outlines[0]);
+    flat.low_m = box.min.z;
+    flat.high_m = box.max.z;
     flat.is_low = !flat.looks_up && box.max.z <= out.ground_m + kGroundOver_m;
     flat.outlines = flattened(std::move(outlines));
     flat.area_m2 = std::max(0.0, detail::figure_area_m2(flat.outlines, kUpwards));
@@ -107,6 +152,7 @@ StandingBuilding standing_building(const Building& building) {
   }
   for (UprightWall& wall : out.walls) wall.box = box_of_outline(wall.outlines[0]);
   out.roof_m = roof_height_m(flats, out.box.is_empty() ? 0 : out.box.max.z);
+  out.gable = gabled_roof(flats);
   take_ground(flats, out);
   return out;
 }

@@ -4,6 +4,7 @@
 #include "kernel/model/building.h"
 #include "kernel/model/vec3.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@ struct UprightWall {
   std::vector<detail::Outline> outlines;  ///< the outer one first
   Vec3 normal;                            ///< out of the building, as its corners say
   Box box;
+};
+
+/// A roof with a ridge that falls to two sides, as far as blocks know it.
+struct GabledRoof {
+  Vec3 ridge;  ///< level, of length 1, either way
+  /// The means of the highest and of the lowest points of what falls to the sides, by area, z in
+  /// the building's frame.
+  double ridge_m = 0, eaves_m = 0;
 };
 
 /// What is kept of a building so that others know that it stands there.
@@ -31,6 +40,9 @@ struct StandingBuilding {
   double ground_m = 0;  ///< z of its lowest point
   /// The mean height of what is seen of its roofs from above, by area, z in the frame.
   double roof_m = 0;
+  /// Where four fifths of the roof, seen from above, fall to two opposite sides to 10 degrees, and
+  /// a fifth at least to each.
+  std::optional<GabledRoof> gable{};
 };
 
 /// Walls below a twentieth of a square metre, such as the sides of a window's recess, and polygons

@@ -193,8 +193,7 @@ LevelState state_as_read(const Document& document, const Building& building) {
   ordered_json header;
   header["transform"]["scale"] = {scale.x, scale.y, scale.z};
   header["transform"]["translate"] = {translate.x, translate.y, translate.z};
-  auto states =
-      read_level(source.text, document.name, {building.id}, header.dump(), building.lod);
+  auto states = read_level(source.text, document.name, {building.id}, header.dump(), building.lod);
   if (!states.value) throw GeometryError(states.issues.front().sentence);
   return std::move(states.value->front());
 }

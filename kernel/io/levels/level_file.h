@@ -12,8 +12,9 @@ namespace oriel {
 
 /// The states of the buildings `ids` in a file of a series, or in a line of a stream, whose
 /// transform is in its `header`: the geometry of each of the level of detail `lod`, empty: of the
-/// highest, a solid before surfaces, its semantic surfaces, the installations among its children, and the attributes of
-/// its state (is_of_state). One with `oriel_member_of` has no facets. E120 and no value if a building is not there, or not as oriel writes a level.
+/// highest, a solid before surfaces, its semantic surfaces, the installations among its children,
+/// and the attributes of its state (is_of_state). One with `oriel_member_of` has no facets. E120
+/// and no value if a building is not there, or not as oriel writes a level.
 Checked<std::vector<LevelState>> read_level(std::string_view text, const std::string& file,
                                             const std::vector<std::string>& ids,
                                             std::string_view header = {},
