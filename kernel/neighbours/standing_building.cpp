@@ -3,6 +3,7 @@
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/neighbours/before_wall.h"
 
 #include <algorithm>
 #include <array>
@@ -62,6 +63,11 @@ double roof_height_m(const std::vector<GentlePolygon>& flats, double otherwise_m
   return all_m2 > 0 ? sum / all_m2 : otherwise_m;
 }
 
+/// Larger walls are never panes.
+constexpr double kLargestPane_m2 = 4;
+/// The rim of a pane is left out, as it may be on the outline of the ground.
+constexpr double kMostly = 0.9;
+constexpr double kStepBefore_m = 0.01;
 constexpr double kSameSide = 0.9848;  // the cosine of 10 degrees
 constexpr double kFlatRoof = 0.9848;  // upwards to 10 degrees
 constexpr double kOfRoof = 0.8, kOfEachSide = 0.2;
@@ -112,6 +118,24 @@ bool take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out) {
   return has_ground;
 }
 
+/// True of a small wall, as around and behind the pane of a window, all of which has ground of the
+/// building itself before it, further than walls that touch are apart.
+bool looks_at_own_ground(const UprightWall& wall, const StandingBuilding& own) {
+  const Outline& outline = wall.outlines[0];
+  if (detail::figure_area_m2(wall.outlines, wall.normal) > kLargestPane_m2) return false;
+  Vec3 middle;
+  for (const Vec3 p : outline) middle = middle + (1.0 / static_cast<double>(outline.size())) * p;
+  const auto is_own = [&](Vec3 p) {
+    const Vec3 before =
+        middle + kMostly * (p - middle) + (kContact_m + kStepBefore_m) * wall.normal;
+    return detail::is_on_ground(own.ground, {before.x, before.y, 0});
+  };
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    if (!is_own(outline[i]) || !is_own(0.5 * (outline[i] + outline[(i + 1) % outline.size()])))
+      return false;
+  return true;
+}
+
 }  // namespace
 
 StandingBuilding standing_building(const Building& building) {
@@ -153,7 +177,10 @@ StandingBuilding standing_building(const Building& building) {
   for (UprightWall& wall : out.walls) wall.box = box_of_outline(wall.outlines[0]);
   out.roof_m = roof_height_m(flats, out.box.is_empty() ? 0 : out.box.max.z);
   out.gable = gabled_roof(flats);
-  take_ground(flats, out);
+  if (take_ground(flats, out))
+    std::erase_if(out.walls,
+                  [&](const UprightWall& wall) { return looks_at_own_ground(wall, out); });
+  out.walls.shrink_to_fit();
   return out;
 }
 

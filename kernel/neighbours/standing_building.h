@@ -45,8 +45,9 @@ struct StandingBuilding {
   std::optional<GabledRoof> gable{};
 };
 
-/// Walls below a twentieth of a square metre, such as the sides of a window's recess, and polygons
-/// without area are left out.
+/// Walls below a twentieth of a square metre and polygons without area are left out, and so are
+/// those of up to four square metres that look at ground of the building itself, such as the sides
+/// and the pane of a window: nothing can stand against them.
 StandingBuilding standing_building(const Building& building);
 
 /// Its ground in another frame, in which its own lies at `moved_m`; z = 0.
