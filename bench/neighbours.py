@@ -22,6 +22,7 @@ levels:
   map: {form: as-is, map-mm: 0.3, verdicts: {point: omit, line: omit, small: omit}, buildings: {aggregate: touching, gap-mm: 0.2}}
 """
 TOUCH = 0.05  # metres, as kContact_m
+LINE = 0.01  # metres: eaves and ridges that differ by no more are in line
 
 
 def run(*call, ok=(0, 3)):
@@ -165,6 +166,39 @@ def pairs_near(grounds, reach=TOUCH):
     return sorted(seen)
 
 
+def size_3d(ring):
+    n = [0.0, 0.0, 0.0]
+    for i in range(len(ring)):
+        p, q = ring[i - 1], ring[i]
+        for k in range(3):
+            n[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3]
+    return math.sqrt(sum(c * c for c in n)) / 2
+
+
+def roof_of(polygons):
+    """Heights of eaves and ridge: the lowest and the highest point of the largest face that is a roof and not level."""
+    faces = [polygon[0] for polygon in polygons if 0.25 < normal_z(polygon[0]) < 0.985]
+    if not faces:
+        return None
+    largest = max(faces, key=size_3d)
+    return min(p[2] for p in largest), max(p[2] for p in largest)
+
+
+def roof_lines(before, after, leader, pairs):
+    """Of eaves and ridges that were in line between two that touch and stay apart: how many are out of line, and by how much."""
+    were, out, widest = 0, 0, 0.0
+    for p, q in pairs:
+        if leader.get(p) != p or leader.get(q) != q or None in (before.get(p), before.get(q), after.get(p), after.get(q)):
+            continue
+        for k in range(2):
+            if abs(before[p][k] - before[q][k]) <= LINE:
+                were += 1
+                apart = abs(after[p][k] - after[q][k])
+                out += apart > LINE
+                widest = max(widest, apart)
+    return {"roof_lines": were, "out_of_line": out, "out_by_mm": round(1000 * widest, 1)}
+
+
 def city(path):
     grounds, members = {}, {}
     for name, attributes, polygons in features(path):
@@ -204,7 +238,9 @@ def judge(oriel, before_path, after_path, scale, name):
         1 for one in set(leader.values()) if list(leader.values()).count(one) > 1), "valid": valid,
         "overlaps": len(new), "contact_m": round(length, 1), "between_groups_m": round(sum(wanted.values()), 1),
         "contact_lost_m": round(lost, 2), "widest_gap_mm": round(1000 * gap, 2), "covered_m2": round(covered_before, 1),
-        "covered_change_pct": round(100 * (covered_after / covered_before - 1), 2)}), flush=True)
+        "covered_change_pct": round(100 * (covered_after / covered_before - 1), 2),
+        **roof_lines(*({n: roof_of(p) for n, _, p in features(path)} for path in (before_path, after_path)), leader,
+                     [pair for pair in pairs_near(before) if contact(before[pair[0]], before[pair[1]])[0] > 0.1])}), flush=True)
 
 
 def lines_hash(paths):
