@@ -179,7 +179,8 @@ class InvariantEnforcer {
     for (const detail::PlanTask& task : detail::tasks_of(plan_, segmentation_)) {
       if (std::ranges::find(task.steps, id, &Step::feature) == task.steps.end()) continue;
       for (const Step& step : task.steps)
-        if (!undone_.contains(step.feature)) undone_.add({step.feature, Code::G403, reason});
+        if (!undone_.contains(step.feature) && (step.feature == id || !detail::takes_some(step)))
+          undone_.add({step.feature, Code::G403, reason});
     }
   }
 

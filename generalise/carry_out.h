@@ -1,6 +1,7 @@
 #pragma once
 
 #include "generalise/invariants/invariants.h"
+#include "generalise/needs.h"
 #include "kernel/base/code.h"
 #include "kernel/model/plan.h"
 #include "kernel/segment/remove.h"
@@ -26,6 +27,7 @@ struct CarriedOut {
     FeatureId feature;
     Code code = Code::none;
     std::string reason;
+    Hindrance hindrance{};
   };
   std::vector<Refused> refused;
   /// Features that look different now; they are not among the removed. Ascending.

@@ -3,6 +3,7 @@
 #include "generalise/tasks.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -41,9 +42,20 @@ class StepRunner {
     return segmentation_.features[step.feature.index()];
   }
 
-  void fail(const detail::PlanTask& task, Code code, const std::string& reason) {
-    for (const Step& step : task.steps)
-      failed_.try_emplace(step.feature, CarriedOut::Refused{step.feature, code, reason});
+  void fail(const Step& step, Code code, const std::string& reason,
+            const Hindrance& hindrance = {}) {
+    failed_.try_emplace(step.feature, CarriedOut::Refused{step.feature, code, reason, hindrance});
+  }
+  void fail(const detail::PlanTask& task, Code code, const std::string& reason,
+            const Hindrance& hindrance = {}) {
+    for (const Step& step : task.steps) fail(step, code, reason, hindrance);
+  }
+  void fail(const detail::PlanTask& task, const detail::Placed& placed) {
+    const auto code_of = [](bool is_needless) { return is_needless ? Code::none : Code::G403; };
+    if (placed.left.empty())
+      return fail(task, code_of(placed.is_needless), placed.reason, placed.hindrance);
+    for (const detail::Placed::Left& one : placed.left)
+      fail(task.steps[one.member], code_of(one.is_needless), one.reason, one.hindrance);
   }
 
   /// Takes everything off and puts back what operators leave; what fails is not tried again.
@@ -67,7 +79,9 @@ class StepRunner {
   void fail_if_refused(const detail::PlanTask& task, const std::vector<Refusal>& refused) {
     for (const Step& step : task.steps) {
       const auto found = std::ranges::find(refused, step.feature, &Refusal::feature);
-      if (found != refused.end()) return fail(task, found->code, found->reason);
+      if (found == refused.end()) continue;
+      if (!detail::takes_some(step)) return fail(task, found->code, found->reason);
+      fail(step, found->code, found->reason);
     }
   }
 
@@ -84,21 +98,30 @@ class StepRunner {
 
   void put_back(const detail::PlanTask& task, CarriedOut& out) {
     if (task.operation == "merge") return merge_in(task, out);
-    const bool is_gone = std::ranges::all_of(task.steps, [&](const Step& step) {
+    const auto can_be_put_back = [&](const Step& step) {
       return !failed_.contains(step.feature) &&
-             std::ranges::binary_search(out.removed, step.feature);
-    });
-    if (!is_gone) return;
-    const bool is_in_another = std::ranges::any_of(task.steps, [&](const Step& step) {
-      const FeatureId parent = feature(step).parent, host = feature(step).host;
-      return (parent.is_valid() && std::ranges::binary_search(out.removed, parent)) ||
-             (host.is_valid() && std::ranges::binary_search(out.removed, host));
-    });
-    if (is_in_another) return;  // it went with what carries it
+             std::ranges::binary_search(out.removed, step.feature) && !went_with_another(step, out);
+    };
+    if (detail::takes_some(task.steps[0])) {
+      detail::PlanTask some{task.operation, {}};
+      std::ranges::copy_if(task.steps, std::back_inserter(some.steps), can_be_put_back);
+      if (!some.steps.empty()) redraw(some, out);
+    } else if (std::ranges::all_of(task.steps, can_be_put_back)) {
+      redraw(task, out);
+    }
+  }
+
+  /// It went with what carries it.
+  [[nodiscard]] bool went_with_another(const Step& step, const CarriedOut& out) const {
+    const FeatureId parent = feature(step).parent, host = feature(step).host;
+    return (parent.is_valid() && std::ranges::binary_search(out.removed, parent)) ||
+           (host.is_valid() && std::ranges::binary_search(out.removed, host));
+  }
+
+  void redraw(const detail::PlanTask& task, CarriedOut& out) {
     const Operator& its = operator_named(task.operation);
     detail::Placed placed = its.redraw({out.solid, segmentation_, task.steps, plan_.scale});
-    if (!placed.solid)
-      return fail(task, placed.is_needless ? Code::none : Code::G403, placed.reason);
+    if (!placed.solid) return fail(task, placed);
     if (task.operation == "flatten" && validator_ &&
         validator_.fitness_of(*placed.solid) == Fitness::unfit)
       return fail(task, Code::G403, "the moved facet would meet another part");

@@ -3,6 +3,8 @@
 #include "generalise/operators/operators.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -20,17 +22,16 @@ class TaskMaker {
       : plan_(plan), segmentation_(segmentation) {}
 
   std::vector<PlanTask> run() {
-    std::map<std::tuple<std::string, PlaneId, std::string>, std::vector<Step>> groups;
+    std::map<GroupKey, std::vector<Step>> groups;
     for (const Step& step : plan_.steps) {
       if (step.operation == "omit") continue;
-      const auto& planes = feature(step).planes;
-      if (is_for_groups(step) && !planes.empty())
-        groups[{step.rule, planes[0], step.group}].push_back(step);
+      if (is_for_groups(step) && !feature(step).planes.empty())
+        groups[key_of(step)].push_back(step);
       else
         tasks_.push_back({step.operation, {step}});
     }
     for (auto& [key, members] : groups)
-      if (members[0].group.empty())
+      if (members[0].group.empty() && !takes_some(members[0]))
         add_rows(std::move(members));
       else
         add_row({members[0].operation, std::move(members)});
@@ -45,6 +46,16 @@ class TaskMaker {
   }
 
  private:
+  /// Rule, wall plane and group.
+  using GroupKey =
+      std::tuple<std::string, std::array<std::int64_t, 3>, std::int64_t, PlaneId, std::string>;
+  /// Parts of a wall have planes of their own where they were cut apart: a facade is one place.
+  [[nodiscard]] GroupKey key_of(const Step& step) const {
+    const PlaneId plane = feature(step).planes[0];
+    const Plane& its = segmentation_.planes[plane.index()];
+    if (takes_some(step)) return {step.rule, its.coefficients, its.offset, {}, {}};
+    return {step.rule, {}, 0, plane, step.group};
+  }
   [[nodiscard]] const Feature& feature(const Step& step) const {
     return segmentation_.features[step.feature.index()];
   }
@@ -88,6 +99,7 @@ class TaskMaker {
 }  // namespace
 
 bool is_for_groups(const Step& step) { return operator_named(step.operation).is_for_groups(step); }
+bool takes_some(const Step& step) { return operator_named(step.operation).takes_some; }
 
 std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation) {
   return TaskMaker(plan, segmentation).run();

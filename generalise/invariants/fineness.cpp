@@ -134,24 +134,22 @@ double extent_along(Vec3 direction, const Feature& feature, const Segmentation& 
   return high - low;
 }
 
-bool is_depth(const ShortEdge& edge, Sense sense, const Segmentation& segmentation) {
-  if (!edge.feature.is_valid()) return false;
-  const Feature& feature = segmentation.features[edge.feature.index()];
-  if (feature.sense != sense || feature.planes.empty()) return false;
-  const Vec3 normal = segmentation.planes[feature.planes[0].index()].normal;
-  if (length(cross(normalised(edge.to - edge.from), normal)) >= kDepthLean) return false;
-  return sense == Sense::hole ||
-         edge.length_m >= extent_along(normal, feature, segmentation) - kOnBox_m;
-}
-
 /// The edge runs along the depth of a recess.
 bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
-  return is_depth(edge, Sense::hole, segmentation);
+  if (!edge.feature.is_valid()) return false;
+  const Feature& feature = segmentation.features[edge.feature.index()];
+  if (feature.sense != Sense::hole || feature.planes.empty()) return false;
+  const Vec3 normal = segmentation.planes[feature.planes[0].index()].normal;
+  return length(cross(normalised(edge.to - edge.from), normal)) < kDepthLean;
 }
 
-/// The edge runs along the depth of a block that was drawn as deep as it was.
-bool is_old_depth(const ShortEdge& edge, const Segmentation& segmentation) {
-  return is_depth(edge, Sense::protrusion, segmentation);
+/// The edge is as long as its feature was along it: a block that is as deep as it was, a low window
+/// that moved.
+bool is_as_long_as_before(const ShortEdge& edge, const Segmentation& segmentation) {
+  if (!edge.feature.is_valid()) return false;
+  const Feature& feature = segmentation.features[edge.feature.index()];
+  const Vec3 along = normalised(edge.to - edge.from);
+  return edge.length_m >= extent_along(along, feature, segmentation) - kOnBox_m;
 }
 
 /// By input polygon the feature that an operator drew, or an invalid one if it only went with that.
@@ -289,7 +287,7 @@ std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& af
   if (edges.empty()) return edges;
   const SolidCorners corners(before);
   std::erase_if(edges, [&](const ShortEdge& edge) {
-    return is_depth(edge, segmentation) || is_old_depth(edge, segmentation) ||
+    return is_depth(edge, segmentation) || is_as_long_as_before(edge, segmentation) ||
            (corners.has(edge.from) && corners.has(edge.to));
   });
   return edges;

@@ -46,7 +46,8 @@ std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
 
 /// Those of parts that an operator drew: new edges of facets whose input polygons are all of
 /// features that are `changed` or `removed` (both ascending), one of a changed one at least, the
-/// owner. Without those along the depth of a recess, or of a block that is as deep as it was.
+/// owner. Without those along the depth of a recess, and those as long as their feature was along
+/// them: of a block that is as deep as it was, of a low window that moved.
 std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& after,
                                             const Segmentation& segmentation,
                                             const std::vector<FeatureId>& changed,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "generalise/needs.h"
 #include "kernel/attach/attach.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
@@ -40,6 +41,17 @@ struct Placed {
   std::string reason;
   /// The feature is as the operator wants it already, or alone in its row: it stays, not refused.
   bool is_needless = false;
+  /// Of a refusal: what would let it act.
+  Hindrance hindrance{};
+  /// Of an operator for which some members of a task may stay as they are (Operator::takes_some):
+  /// those, each with its own reason. The others are tried again without them.
+  struct Left {
+    std::size_t member = 0;
+    std::string reason;
+    bool is_needless = false;
+    Hindrance hindrance{};
+  };
+  std::vector<Left> left{};
 };
 
 /// A recess or a block with the outline u0…u1 × v0…v1 on a host and the given depth; its facets get

@@ -38,7 +38,7 @@ constexpr std::array kOperators{
     Operator{"aggregate", aggregate, 0, [](const Step& step) { return !becomes_block(step); },
              keeps_first},
     Operator{"typify", typify, 0, is_always_for_groups, keeps_ratio},
-    Operator{"displace", displace, 0, is_always_for_groups, keeps_all},
+    Operator{"displace", displace, 0, is_always_for_groups, keeps_all, true},
     Operator{"flatten", flatten, 1, is_never_for_groups, keeps_none},
     Operator{"collapse", collapse, 2, is_never_for_groups, keeps_all},
 };

@@ -148,20 +148,17 @@ detail::Placed typify(const Redrawing& task);
 /// How many of n stay.
 std::size_t typified_count(std::size_t n, double ratio);
 
-/// Moves the recesses of a row along their wall until `gap` lies between them and to the ends of
-/// the wall; with `to` they grow first, about their centres, to at least that width. Their order is
-/// kept, and the sum of the squares of the shifts is the smallest there is. Heights and depths
-/// stay.
+/// The operator `displace`: the openings of a facade move apart (paper 5.1, "displacement").
 ///
-/// Refused if the row needs no change or more room than the wall has, if a member is no box sunk
-/// into the wall, or if one would come nearer than `gap` to another part.
+/// `{displace: {to: LENGTH, gap: LENGTH}}`: those of one wall plane, recessed, flush or proud, move
+/// until `gap` lies between them, and between them and what else is on the wall and its ends; with
+/// `to` they grow first, about their centres, to at least that width. Their order is kept, rows
+/// stay rows, and the sum of the squared shifts is the least there is (FacadeRoom::arrange). Sizes
+/// and depths stay. Takes some (Operator::takes_some): an opening that need not move stays as it
+/// is, as do those that have no room, which the others then keep off. Precondition: what moves is a
+/// recess, a block that is a box, or an outline. Touches: the wall's facet. Inverse: omit, and the
+/// openings that the segmentation still has.
 detail::Placed displace(const Redrawing& task);
-
-/// Positions next to the wished-for ones (ascending) that are no nearer to each other than
-/// `apart[i]` (of i and i + 1) and lie in [low, high]: the ones with the least sum of squared
-/// shifts, by pooling adjacent violators (Barlow et al. 1972). There must be room for them.
-std::vector<double> least_shifts(const std::vector<double>& wished,
-                                 const std::vector<double>& apart, double low, double high);
 
 /// What carrying out a plan has to know of an operator.
 struct Operator {
@@ -175,6 +172,8 @@ struct Operator {
   bool (*is_for_groups)(const Step&);
   /// How many of the features of a task are still there afterwards; the first ones.
   std::size_t (*kept)(const std::vector<Step>&);
+  /// Its tasks are all features of one wall plane, of which some may stay as they are.
+  bool takes_some = false;
 };
 
 /// Throws std::out_of_range if there is none: loading a pack checks the names.

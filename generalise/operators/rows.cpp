@@ -1,3 +1,4 @@
+#include "generalise/operators/facade.h"
 #include "generalise/operators/operators.h"
 #include "kernel/segment/remove.h"
 
@@ -5,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 
 namespace oriel {
 
@@ -39,9 +39,6 @@ struct RowMeans {
   double width = 0, height = 0, middle = 0, depth = 0;  ///< means
 };
 
-/// Shifts and growths below this are rounding: Tolerances::weld_m.
-constexpr double kNoShift_m = 0.001;
-
 /// The kind of most of a row's members, the deeper one where they are even.
 Sense common_sense(const Redrawing& task) {
   const auto count = [&](Sense sense) {
@@ -50,17 +47,6 @@ Sense common_sense(const Redrawing& task) {
     return found;
   };
   return std::ranges::max(std::array{Sense::hole, Sense::protrusion, Sense::imprint}, {}, count);
-}
-
-/// The ends of the wall along it.
-std::pair<double, double> ends_of(const Solid& solid, const Host& host) {
-  double low = Box::kInfinity, high = -Box::kInfinity;
-  for (const int v : solid.facets[host.facet.index()].loops[0]) {
-    const double u = dot(solid.vertices[static_cast<std::size_t>(v)].point, host.u);
-    low = std::min(low, u);
-    high = std::max(high, u);
-  }
-  return {low, high};
 }
 
 /// `count` copies of a row's mean, `grown` times as large, from its first to its last edge.
@@ -115,7 +101,8 @@ Placed aggregate(const Redrawing& task) {
   }
   middle /= area_m2;
   // A strip lower than the map shows would be refused as too fine.
-  const double height_m = std::max(area_m2 / all.width(), kGapOnMap_m * task.scale + kNoShift_m);
+  const double height_m =
+      std::max(area_m2 / all.width(), kGapOnMap_m * task.scale + detail::kNoShift_m);
   all.v0 = middle - height_m / 2;
   all.v1 = middle + height_m / 2;
   return place_like(task.solid, task.segmentation, *host, all, volume_m3 / area_m2,
@@ -152,79 +139,6 @@ Placed typify(const Redrawing& task) {
   Placed placed;
   for (int part = kParts; part >= 0 && !placed.solid; --part)
     placed = typified(task, *host, row, m, 1 + most * part / kParts);
-  return placed;
-}
-
-std::vector<double> least_shifts(const std::vector<double>& wished,
-                                 const std::vector<double>& apart, double low, double high) {
-  // With the distances taken off, positions need only ascend.
-  std::vector<double> offset(wished.size(), 0);
-  for (std::size_t i = 1; i < wished.size(); ++i) offset[i] = offset[i - 1] + apart[i - 1];
-  struct Pool {
-    double sum;
-    std::size_t count;
-    [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
-  };
-  std::vector<Pool> pools;
-  for (std::size_t i = 0; i < wished.size(); ++i) {
-    pools.push_back({wished[i] - offset[i], 1});
-    while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
-      const Pool last = pools.back();
-      pools.pop_back();
-      pools.back().sum += last.sum;
-      pools.back().count += last.count;
-    }
-  }
-  const double highest = std::max(low, high - offset.back());
-  std::vector<double> out;
-  for (const Pool& pool : pools)
-    for (std::size_t i = 0; i < pool.count; ++i)
-      out.push_back(std::clamp(pool.mean(), low, highest) + offset[out.size()]);
-  return out;
-}
-
-Placed displace(const Redrawing& task) {
-  const auto host = task.host();
-  if (!host) return {std::nullopt, "its wall is no longer found"};
-  const double to_m = task.number("to", 0), gap_m = task.gap_m();
-  std::vector<Extents> members;
-  std::vector<double> centres, apart, depths;
-  bool is_changed = false;
-  for (std::size_t i = 0; i < task.steps.size(); ++i) {
-    Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    const auto depth_m = box_depth(*host, task.feature(i), one);
-    if (!depth_m)
-      return {std::nullopt, "only recesses, blocks that are boxes and outlines can be displaced"};
-    depths.push_back(*depth_m);
-    centres.push_back((one.u0 + one.u1) / 2);
-    const double more = std::max(0.0, to_m - one.width());
-    is_changed = is_changed || more > kNoShift_m;
-    one.u0 -= more / 2;
-    one.u1 += more / 2;
-    if (i > 0) apart.push_back((members.back().width() + one.width()) / 2 + gap_m);
-    members.push_back(one);
-  }
-  const auto [first, last] = ends_of(task.solid, *host);
-  // A hair more than the gap, which is checked exactly.
-  const double low = first + gap_m + members.front().width() / 2 + kNoShift_m;
-  const double high = last - gap_m - members.back().width() / 2 - kNoShift_m;
-  for (double& distance : apart) distance += kNoShift_m;
-  if (std::accumulate(apart.begin(), apart.end(), low) > high)
-    return {std::nullopt, "its wall has no room for the row"};
-  const std::vector<double> places = least_shifts(centres, apart, low, high);
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const double shift = places[i] - centres[i];
-    is_changed = is_changed || std::abs(shift) > kNoShift_m;
-    members[i].u0 += shift;
-    members[i].u1 += shift;
-  }
-  if (!is_changed) return {std::nullopt, "there is room enough", true};
-  Placed placed{task.solid, {}, false};
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    placed = place_like(*placed.solid, task.segmentation, *host, members[i], depths[i],
-                        task.feature(i).sense, gap_m, task.feature(i));
-    if (!placed.solid) return placed;
-  }
   return placed;
 }
 

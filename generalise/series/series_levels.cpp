@@ -88,7 +88,7 @@ class Levels {
     std::set<FeatureId> bound;
     const Plan old{before.scale, before.steps, {}};
     for (const detail::PlanTask& task : detail::tasks_of(old, input_.segmentation)) {
-      if (!detail::is_for_groups(task.steps[0])) continue;
+      if (!detail::is_for_groups(task.steps[0]) || detail::takes_some(task.steps[0])) continue;
       const auto first = asked.find(task.steps[0].feature);
       const bool is_whole = std::ranges::all_of(task.steps, [&](const Step& step) {
         const auto its = asked.find(step.feature);

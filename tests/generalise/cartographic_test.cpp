@@ -125,7 +125,7 @@ TEST_SUITE("generalise") {
         drawn += short_edges_drawn(line, any.generalised, least_m);
         const Redraft fine = redraft(line, scale, least_m);
         CHECK(short_edges_drawn(line, fine.generalised, least_m) == 0);
-        for (const auto& [feature, code, reason] : fine.generalised.refused) {
+        for (const auto& [feature, code, reason, hindrance] : fine.generalised.refused) {
           if (!reason.ends_with("would be drawn")) continue;
           ++refused;
           CHECK(code == Code::G403);

@@ -175,49 +175,6 @@ TEST_SUITE("generalise") {
     CHECK(kept == 4);
   }
 
-  TEST_CASE("windows too near to each other move apart in their order by the least shifts") {
-    BoxBody body;
-    body.add({0, 0, 0}, {10, 8, 6});
-    for (const double x : {1.0, 2.1, 3.2, 7.0}) body.remove({x, 0, 3}, {x + 1, 0.2, 4});
-    const Line line = line_of(body.build());
-    const auto out = carried(line, plan_for(line, step("displace", {{"gap", 0.5}}), is_any));
-    CHECK(out.refused.empty());
-    CHECK(out.changed.size() == 4);
-    CHECK(volume_m3(out.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
-    std::set<double> left;
-    for (const Vertex& v : out.solid.vertices)
-      if (v.point.z > 2.9 && v.point.z < 4.1 && v.point.y == 0) left.insert(v.point.x);
-    std::vector<double> sides(left.begin(), left.end());
-    REQUIRE(sides.size() == 8);
-    for (std::size_t i = 1; i + 1 < sides.size(); i += 2) CHECK(sides[i + 1] - sides[i] >= 0.5);
-    CHECK(sides[2] == doctest::Approx(2.1).epsilon(0.01));
-    CHECK(sides[6] == doctest::Approx(7).epsilon(1e-6));
-  }
-
-  TEST_CASE("the least shifts keep order and distances and move nothing that need not move") {
-    CHECK(rc::check([] {
-      const auto steps = *rc::gen::container<std::vector<int>>(5, rc::gen::inRange(0, 200));
-      std::vector<double> wished{0};
-      for (const int one : steps) wished.push_back(wished.back() + one * 0.01);
-      const std::vector<double> apart(steps.size(), 1.0);
-      const auto places = least_shifts(wished, apart, -1, 20);
-      RC_ASSERT(places.size() == wished.size());
-      for (std::size_t i = 1; i < places.size(); ++i)
-        RC_ASSERT(places[i] - places[i - 1] >= 1 - 1e-9);
-      const bool is_good = std::ranges::all_of(steps, [](int one) { return one >= 100; });
-      for (std::size_t i = 0; is_good && i < places.size(); ++i)
-        RC_ASSERT(std::abs(places[i] - wished[i]) < 1e-9);
-    }));
-  }
-
-  TEST_CASE("a row that its wall has no room for is not displaced") {
-    const Line line = line_of(facade().build());
-    const auto out =
-        carried(line, plan_for(line, step("displace", {{"to", 2}, {"gap", 1}}), is_high));
-    REQUIRE(out.refused.size() == 4);
-    CHECK(out.refused[0].reason == "its wall has no room for the row");
-  }
-
   TEST_CASE("a balcony that merges keeps its shape and is named by its slopes") {
     const Line line =
         line_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).add({2, -1.2, 3}, {5, 0, 3.2}).build());
