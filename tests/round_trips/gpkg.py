@@ -62,14 +62,14 @@ def expected_features(objects):
     """The features of each building with their labels: those that surfaces or installations are named after."""
     out = {}
     for name, one in objects.items():
+        host = name
         if one["type"] == "BuildingInstallation":
             host = one["parents"][0]
             out[(host, one["attributes"].get("oriel_id", name))] = one["attributes"].get("oriel_label")
-            continue
         geometry = city_text.chosen(one["geometries"])
         for surface in geometry.surfaces if geometry else ():
             if "oriel_id" in surface:
-                out[(name, surface["oriel_id"])] = surface.get("oriel_label")
+                out.setdefault((host, surface["oriel_id"]), surface.get("oriel_label"))
     return out
 
 
