@@ -372,22 +372,28 @@ Series series(const Document& document, const std::vector<PipelineResult>& resul
   return SeriesDrawer(alone, rules, scales, options).draw(of_alone, options.observer);
 }
 
-OutputRecord at(const Series& series, double scale) {
-  OutputRecord output;
-  output.options.finer_digits = series.finer_digits;
+OutputRecord at(const Series& series, double scale) { return levels(series, {scale})[0]; }
+
+std::vector<OutputRecord> levels(const Series& series, const std::vector<double>& scales) {
+  std::vector<OutputRecord> outputs(scales.size());
+  for (OutputRecord& output : outputs) output.options.finer_digits = series.finer_digits;
   for (const BuildingSeries& one : series.buildings) {
     LevelState state = one.series.finest;
-    if (!move_state(state, one.series.operations, 0, scale))
-      throw GeometryError("an operation of a series does not fit the state before it");
-    if (one.is_as_read && state == one.series.finest) continue;
-    if (state.facets.empty()) output.options.emptied.push_back(one.building);
-    LabelledBuilding level = labelled_building(state, one.frame);
-    for (const std::string& id : one.installations)
-      if (!state.installations.contains(id)) output.options.removed.push_back(id);
-    level.attributes.insert(level.attributes.begin(), one.attributes.begin(), one.attributes.end());
-    output.buildings.push_back(std::move(level));
+    double from = 0;
+    for (std::size_t i = 0; i < scales.size(); ++i) {
+      if (!move_state(state, one.series.operations, std::exchange(from, scales[i]), scales[i]))
+        throw GeometryError("an operation of a series does not fit the state before it");
+      if (one.is_as_read && state == one.series.finest) continue;
+      if (state.facets.empty()) outputs[i].options.emptied.push_back(one.building);
+      LabelledBuilding level = labelled_building(state, one.frame);
+      for (const std::string& id : one.installations)
+        if (!state.installations.contains(id)) outputs[i].options.removed.push_back(id);
+      level.attributes.insert(level.attributes.begin(), one.attributes.begin(),
+                              one.attributes.end());
+      outputs[i].buildings.push_back(std::move(level));
+    }
   }
-  return output;
+  return outputs;
 }
 
 }  // namespace oriel

@@ -81,6 +81,9 @@ Series series(const Document& document, const std::vector<PipelineResult>& resul
 /// an operation does not fit the state before it.
 OutputRecord at(const Series& series, double scale);
 
+/// The same at several scales, which ascend.
+std::vector<OutputRecord> levels(const Series& series, const std::vector<double>& scales);
+
 /// A level made from the files of a series.
 struct LevelFromFiles {
   /// False: the level and the log do not fit each other, or cannot be read, and `issues` says why.

@@ -77,11 +77,9 @@ std::vector<TileBuilding> tile_buildings(const Document& document,
                                          const std::vector<PipelineResult>& results,
                                          const Series& made, const std::vector<double>& scales,
                                          bool has_colours) {
-  std::vector<OutputRecord> levels;
-  for (const double scale : scales) {
-    levels.push_back(at(made, scale));
-    if (has_colours) name_polygons(levels.back(), made, scale);
-  }
+  std::vector<OutputRecord> drawn_levels = levels(made, scales);
+  for (std::size_t i = 0; i < scales.size() && has_colours; ++i)
+    name_polygons(drawn_levels[i], made, scales[i]);
   std::map<std::string_view, std::size_t> drawn;
   for (std::size_t i = 0; i < made.buildings.size(); ++i)
     drawn.emplace(made.buildings[i].building, i);
@@ -95,7 +93,7 @@ std::vector<TileBuilding> tile_buildings(const Document& document,
     const auto found = drawn.find(building.id);
     LabelledBuilding as_read;
     as_read.building = building.id;
-    for (const OutputRecord& level : levels)
+    for (const OutputRecord& level : drawn_levels)
       tile.add(found == drawn.end() ? as_read : level.buildings[found->second]);
     out.push_back(tile.take());
     if (out.back().meshes.front().triangles.empty()) out.pop_back();

@@ -260,26 +260,8 @@ struct LevelSurface::Parts {
   void triangulate(const Facet& facet, const std::vector<Loop>& loops,
                    std::vector<Corners>& out) const {
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
-    const auto add = [&](int a, int b, int c) {
+    for (const auto& [a, b, c] : detail::triangulate_quickly(points, loops, normal))
       out.push_back({points[at(a)], points[at(b)], points[at(c)]});
-    };
-    if (loops.size() == 1 && is_convex(loops[0], normal)) {
-      for (std::size_t i = 2; i < loops[0].size(); ++i)
-        add(loops[0][0], loops[0][i - 1], loops[0][i]);
-    } else {
-      for (const auto& [a, b, c] : detail::triangulate(points, loops, normal)) add(a, b, c);
-    }
-  }
-
-  /// A quadrangle with corners to the left only, which most facets are.
-  [[nodiscard]] bool is_convex(const Loop& loop, Vec3 normal) const {
-    if (loop.size() != 4) return false;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3 p = points[at(loop[i])], q = points[at(loop[(i + 1) % 4])],
-                 r = points[at(loop[(i + 2) % 4])];
-      if (dot(cross(q - p, r - q), normal) <= 0) return false;
-    }
-    return true;
   }
 };
 

@@ -1,5 +1,7 @@
 #include "kernel/mesh/triangulate.h"
 
+#include "kernel/base/index.h"
+
 #include <cmath>
 #include <deque>
 #include <map>
@@ -89,6 +91,19 @@ std::vector<std::array<int, 3>> fan(const std::vector<int>& ring) {
   return triangles;
 }
 
+/// A quadrangle that turns left at each corner.
+bool is_convex_quadrangle(const std::vector<Vec3>& points, const std::vector<int>& ring,
+                          Vec3 normal) {
+  constexpr std::size_t kCorners = 4;
+  if (ring.size() != kCorners) return false;
+  for (std::size_t i = 0; i < kCorners; ++i) {
+    const Vec3 p = points[at(ring[i])], q = points[at(ring[(i + 1) % kCorners])],
+               r = points[at(ring[(i + 2) % kCorners])];
+    if (dot(cross(q - p, r - q), normal) <= 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<std::array<int, 3>> triangulate(const std::vector<Vec3>& points,
@@ -106,6 +121,13 @@ std::vector<std::array<int, 3>> triangulate(const std::vector<Vec3>& points,
       triangles.push_back(
           {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
   return triangles;
+}
+
+std::vector<std::array<int, 3>> triangulate_quickly(const std::vector<Vec3>& points,
+                                                    const std::vector<std::vector<int>>& rings,
+                                                    Vec3 normal) {
+  if (rings.size() == 1 && is_convex_quadrangle(points, rings[0], normal)) return fan(rings[0]);
+  return triangulate(points, rings, normal);
 }
 
 }  // namespace oriel::detail

@@ -18,4 +18,11 @@ std::vector<std::array<int, 3>> triangulate(const std::vector<Vec3>& points,
                                             const std::vector<std::vector<int>>& rings,
                                             Vec3 normal);
 
+/// The same triangles but for a quadrangle without a corner that is straight or turned inwards: it
+/// is cut along the diagonal from its first vertex, which is quicker than to find out which one is
+/// Delaunay's (both, in a rectangle). For what shows or measures the surface only.
+std::vector<std::array<int, 3>> triangulate_quickly(const std::vector<Vec3>& points,
+                                                    const std::vector<std::vector<int>>& rings,
+                                                    Vec3 normal);
+
 }  // namespace oriel::detail

@@ -50,9 +50,9 @@ struct FlatMesh {
   friend bool operator==(const FlatMesh&, const FlatMesh&) = default;
 };
 
-/// The polygons of `source` as triangles, by `triangulate`, with points less `origin_m`. A feature
-/// has one row for each type of surface and each colour among its faces, in the order of the
-/// polygons. Polygons without area have no triangles and are left out.
+/// The polygons of `source` as triangles, by `triangulate_quickly`, with points less `origin_m`. A
+/// feature has one row for each type of surface and each colour among its faces, in the order of
+/// the polygons. Polygons without area have no triangles and are left out.
 FlatMesh flat_mesh(const MeshSource& source, Vec3 origin_m);
 
 /// An affine map of space: p ↦ columns · p + origin.

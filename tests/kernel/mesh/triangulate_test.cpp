@@ -54,6 +54,22 @@ TEST_SUITE("kernel/io") {
     CHECK(used.size() == 5);
   }
 
+  TEST_CASE("quickly, a quadrangle is cut from its first corner unless that would leave it") {
+    const Vec3 up{0, 0, 1};
+    const Rings ring{{0, 1, 2, 3}};
+    const std::vector<Vec3> kite{{0, 0, 0}, {3, 1, 0}, {4, 4, 0}, {1, 3, 0}};
+    using Triangles = std::vector<std::array<int, 3>>;
+    CHECK(triangulate_quickly(kite, ring, up) == Triangles{{0, 1, 2}, {0, 2, 3}});
+    for (const Vec3 corner : {Vec3{1, 1, 0}, {1.5, 0.5, 0}, {0.5, 0.5, 0}}) {
+      // The second corner is turned inwards, or straight.
+      std::vector<Vec3> other{{0, 0, 0}, corner, {3, 1, 0}, {0, 3, 0}};
+      const auto triangles = triangulate_quickly(other, ring, up);
+      CHECK(triangles == triangulate(other, ring, up));
+      doubled_area(other, triangles, up);
+    }
+    CHECK(triangulate_quickly(kFlat, {{0, 1, 2, 3}, {4, 5, 6, 7}}, up).size() == 8);
+  }
+
   TEST_CASE("a polygon whose edges cross falls back to a fan") {
     const std::vector<Vec3> points{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}};
     CHECK(triangulate(points, {{0, 1, 2, 3}}, {0, 0, 1}).size() == 2);
