@@ -22,7 +22,7 @@ namespace oriel {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
-using Ring = std::vector<std::array<double, 3>>;
+using PointRing = std::vector<std::array<double, 3>>;
 
 /// Of a point from a segment.
 Vec3 nearest_on_segment(Vec3 p, Vec3 a, Vec3 b) {
@@ -191,8 +191,8 @@ class FarthestPoint {
 struct LevelSurface::Parts {
   /// A facet by its points, however they are numbered and wherever its rings begin.
   struct FacetForm {
-    Ring outer;
-    std::map<Ring, const Loop*> holes;
+    PointRing outer;
+    std::map<PointRing, const Loop*> holes;
   };
 
   explicit Parts(Solid level) : solid(std::move(level)) {
@@ -223,16 +223,16 @@ struct LevelSurface::Parts {
 
   Solid solid;
   std::vector<Vec3> points{};
-  std::vector<FacetForm> forms{};             ///< parallel to the facets
-  std::vector<std::size_t> first_triangle{};  ///< of each facet, and behind the last
-  std::map<Ring, std::size_t> facet_at{};     ///< by outer ring
+  std::vector<FacetForm> forms{};               ///< parallel to the facets
+  std::vector<std::size_t> first_triangle{};    ///< of each facet, and behind the last
+  std::map<PointRing, std::size_t> facet_at{};  ///< by outer ring
   std::optional<MeasuredSurface> surface{};
 
  private:
   [[nodiscard]] FacetForm form_of(const Facet& facet) const {
     FacetForm form;
     for (const Loop& loop : facet.loops) {
-      Ring ring;
+      PointRing ring;
       for (const int v : loop) ring.push_back({points[at(v)].x, points[at(v)].y, points[at(v)].z});
       std::ranges::rotate(ring, std::ranges::min_element(ring));
       if (&loop == &facet.loops.front())
