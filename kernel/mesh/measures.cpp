@@ -1,6 +1,10 @@
 #include "kernel/mesh/measures.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/boxes.h"
+#include "kernel/geometry/outlines.h"
+#include "kernel/geometry/planar.h"
+#include "kernel/geometry/shared_area.h"
 #include "kernel/mesh/half_edges.h"
 
 #include <algorithm>
@@ -171,8 +175,76 @@ double hausdorff_m(const Mesh& a, const Mesh& b, double error_m) {
       CGAL::parameters::match_faces(false));
 }
 
+namespace {
+
+/// Facets are in one plane if no corner of either is further off that of the other, seen along its
+/// normal; and what is left of a facet that others cover is nowhere as wide as a millimetre.
+constexpr double kSamePlane_m = 1e-4, kUncovered_m2 = 1e-6;
+
+/// A facet of a solid with what tells whether another one lies in it.
+struct FacetFigure {
+  std::vector<detail::Outline> outlines;
+  Vec3 normal;
+  double offset_m = 0;
+  Box box;
+};
+
+FacetFigure figure_of(const Solid& solid, const Facet& facet) {
+  const Plane& plane = solid.planes[facet.plane.index()];
+  FacetFigure figure{
+      detail::outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m, {}};
+  for (const detail::Outline& outline : figure.outlines)
+    for (const Vec3 p : outline) figure.box.grow(p);
+  return figure;
+}
+
+bool is_in_plane(const FacetFigure& of, const FacetFigure& other) {
+  if (dot(of.normal, other.normal) <= 0) return false;
+  return std::ranges::all_of(of.outlines, [&](const detail::Outline& outline) {
+    return std::ranges::all_of(outline, [&](Vec3 p) {
+      return std::abs(dot(other.normal, p) - other.offset_m) <= kSamePlane_m;
+    });
+  });
+}
+
+/// Facets of a solid that look the same way and lie in one plane cover all of it.
+bool is_covered(const FacetFigure& figure, const std::vector<FacetFigure>& others) {
+  double left_m2 = detail::figure_area_m2(figure.outlines, figure.normal);
+  for (const FacetFigure& other : others) {
+    if (!overlap(figure.box, other.box, kSamePlane_m) || !is_in_plane(figure, other)) continue;
+    left_m2 -= detail::shared_area_m2(figure.outlines, other.outlines, figure.normal);
+    if (left_m2 <= kUncovered_m2) return true;
+  }
+  return false;
+}
+
+/// The facets of `solid` that do not lie on `other`: all points of `solid` that are further off
+/// than a millimetre are in these.
+Solid own_facets(const Solid& solid, const Solid& other) {
+  std::vector<FacetFigure> others;
+  for (const Facet& facet : other.facets) others.push_back(figure_of(other, facet));
+  Solid own = solid;
+  std::erase_if(own.facets,
+                [&](const Facet& facet) { return is_covered(figure_of(solid, facet), others); });
+  own.shells.clear();
+  return own;
+}
+
+/// How far a point of some facets of a solid lies at most from another one.
+double one_sided_m(const Solid& own, const Solid& other, double error_m) {
+  if (own.facets.empty()) return 0;
+  namespace pmp = CGAL::Polygon_mesh_processing;
+  return pmp::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(
+      surface_of(to_mesh(own, MeshFaces::triangles)),
+      surface_of(to_mesh(other, MeshFaces::triangles)), error_m,
+      CGAL::parameters::match_faces(false), CGAL::parameters::match_faces(false));
+}
+
+}  // namespace
+
 double hausdorff_m(const Solid& a, const Solid& b, double error_m) {
-  return hausdorff_m(to_mesh(a), to_mesh(b), error_m);
+  return std::max(one_sided_m(own_facets(a, b), b, error_m),
+                  one_sided_m(own_facets(b, a), a, error_m));
 }
 
 }  // namespace oriel

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 using namespace oriel;
 using namespace oriel::test;
@@ -88,7 +90,8 @@ TEST_SUITE("kernel/mesh") {
 
   TEST_CASE("a solid is at no distance from itself") {
     const Solid box = solid_of(BoxBody().add({0, 0, 0}, {4, 3, 2}).build());
-    CHECK(hausdorff_m(box, box) <= 0.001);
+    CHECK(hausdorff_m(box, box) == 0);
+    CHECK(hausdorff_m(to_mesh(box), to_mesh(box)) <= 0.001);
   }
 
   TEST_CASE("a chimney is as far from the roof as it is high") {
@@ -107,5 +110,21 @@ TEST_SUITE("kernel/mesh") {
     const Solid with = solid_of(body.remove({4, 0, 2}, {6, 5, 4}).build());
     // The middle of its bottom is 3 m from the floor, the top and the back wall.
     CHECK(hausdorff_m(whole, with) == doctest::Approx(3).epsilon(0.01));
+  }
+
+  TEST_CASE("what two solids share changes no distance between them") {
+    BoxBody body;
+    body.add({0, 0, 0}, {10, 8, 6});
+    const Solid bare = solid_of(body.build());
+    // A window, then a bay over it, then a wing: walls and roof become larger and smaller.
+    for (const auto& [min, max, is_added] :
+         std::vector<std::tuple<Vec3, Vec3, bool>>{{{2, 0, 2}, {3, 0.25, 3}, false},
+                                                   {{5, -1, 1}, {7, 0, 4}, true},
+                                                   {{10, 0, 0}, {12, 8, 3}, true}}) {
+      is_added ? body.add(min, max) : body.remove(min, max);
+      const Solid with = solid_of(body.build());
+      CHECK(std::abs(hausdorff_m(bare, with) - hausdorff_m(to_mesh(bare), to_mesh(with))) <= 0.002);
+      CHECK(std::abs(hausdorff_m(with, bare) - hausdorff_m(bare, with)) <= 0.002);
+    }
   }
 }
