@@ -29,6 +29,11 @@ constexpr double kSteepest_deg = 75, kOverhang_deg = 105;
 constexpr double kInPlane_m = 0.02;
 constexpr double kInPlane_cos = 0.9998;
 
+/// Storeys are 2.4 m high at the least, rooms of 2.2 m under a slab; sills vary within a storey.
+constexpr double kLeastStorey_m = 2.2;
+/// Openings in walls, which lean by less than 15 degrees.
+constexpr double kWallLean_cos = 0.2588;
+
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 double inclination_of(Vec3 normal) { return std::acos(std::clamp(normal.z, -1.0, 1.0)) * kDegrees; }
@@ -78,12 +83,26 @@ class EnvelopeSurvey {
     order_faces(out);
   }
 
+  /// By the lower edges of openings in walls, from the lowest up: one begins a storey that lies
+  /// kLeastStorey_m or more above the first one of the storey below.
   [[nodiscard]] std::optional<int> storeys_of_openings() const {
-    std::optional<int> most;
-    for (const FeatureId feature : openings_)
-      if (const auto storey = result_.description.table.number(feature, Attribute::storey))
-        most = std::max(most.value_or(0), static_cast<int>(*storey) + 1);
-    return most;
+    std::vector<double> sills;
+    for (const FeatureId id : openings_) {
+      const Feature& of = feature(id);
+      if (of.planes.empty()) continue;
+      const Vec3 normal = segmentation_.planes[of.planes.front().index()].normal;
+      if (std::abs(normal.z) <= kWallLean_cos) sills.push_back(of.box.min.z);
+    }
+    if (sills.empty()) return std::nullopt;
+    std::ranges::sort(sills);
+    int storeys = 0;
+    double first = -Box::kInfinity;
+    for (const double sill : sills) {
+      if (sill < first + kLeastStorey_m) continue;
+      first = sill;
+      ++storeys;
+    }
+    return storeys;
   }
 
  private:

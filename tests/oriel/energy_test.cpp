@@ -145,6 +145,18 @@ TEST_SUITE("oriel") {
           "other");
   }
 
+  TEST_CASE("windows of one storey need not be level") {
+    BoxBody body;
+    body.add({0, 0, 0}, {12, 8, 9});
+    // Two storeys, each with a higher window, and a third one.
+    for (const auto& [x, sill] : std::vector<std::pair<double, double>>{
+             {1, 1}, {4, 1.75}, {7, 1}, {1, 4}, {4, 4.75}, {1, 7}})
+      body.remove({x, 0, sill}, {x + 1.25, 0.25, sill + 1.25});
+    const json row = row_of(body.build());
+    CHECK(row["windows"] == 6);
+    CHECK(row["storeys"] == 3);
+  }
+
   TEST_CASE("a party wall is no part of the envelope where neighbours are known") {
     const Building own = BoxBody().add({0, 0, 0}, {10, 8, 6}).build("own"),
                    other = BoxBody().add({10, 0, 0}, {15, 8, 3}).build("other");
