@@ -33,6 +33,7 @@ from .features import (
     Attribute,
     Features,
     Lists,
+    energy,
     features,
     interpret,
     read_features,
@@ -48,7 +49,7 @@ from .stages import explain, explain_json, generalise, label, repair, segment
 __all__ = [
     "Attribute", "Building", "ClassScore", "Error", "Explanation", "Features", "File", "Generalised", "Issue",
     "Items", "KnifeEdge", "Learnt", "LearntParam", "Lists", "Miss", "Pack", "Param", "Place", "Proposal", "Question",
-    "Repaired", "Result", "Score", "Truth", "__version__", "embedded_packs", "explain", "explain_json", "features",
-    "generalise", "interpret", "label", "learn", "read", "read_features", "read_text", "read_truth",
+    "Repaired", "Result", "Score", "Truth", "__version__", "embedded_packs", "energy", "explain", "explain_json",
+    "features", "generalise", "interpret", "label", "learn", "read", "read_features", "read_text", "read_truth",
     "relation_schema", "repair", "schema", "score", "segment", "to_text", "write", "write_features",
 ]

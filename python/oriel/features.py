@@ -1,6 +1,7 @@
 """Features as columns, and labels of stored features."""
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from typing import Any, Iterable, Iterator, NamedTuple, Optional, Union
@@ -124,6 +125,23 @@ class Features(Mapping[str, npt.NDArray[Any]]):
 def features(results: Union[Result, Iterable[Result]]) -> Features:
     """The features of what segment() or label() gave, as columns. Buildings that were rejected have none."""
     return Features(feature_set(results))
+
+
+def energy(results: Union[Result, Iterable[Result]], table: str = "energy", *,
+           unheated: Iterable[str] = ("balcony", "canopy", "chimney", "stairs", "vent")) -> list[dict[str, Any]]:
+    """The rows of the command's `label --table`, as dictionaries: of each building, or of each face of its envelope.
+
+    results: what label() gave.
+    table: "energy" (buildings) or "envelope" (faces); docs/energy.md has the columns.
+    unheated: classes whose features are no part of the heated body.
+
+    Raises ValueError for another table, and for results without labels.
+    """
+    if table not in ("energy", "envelope"):
+        raise ValueError(f"there is no table '{table}': energy, envelope")
+    several = [results] if isinstance(results, Result) else list(results)
+    rows: list[dict[str, Any]] = json.loads(_oriel.energy_text(several, table, list(unheated)))
+    return rows
 
 
 def read_features(path: Path) -> Features:

@@ -1,3 +1,4 @@
+#include "oriel/energy.h"
 #include "oriel/explain.h"
 #include "oriel/interpret.h"
 #include "oriel/rules.h"
@@ -54,6 +55,33 @@ FeatureSet features_of(const Results& results) {
   set.buildings = std::move(buildings);
   set.rows = std::move(rows);
   return set;
+}
+
+/// The rows of the table `energy` or `envelope` of labelled buildings, as a JSON array.
+std::string energy_text(const Results& results, const std::string& table,
+                        const std::vector<std::string>& unheated) {
+  const EnergyTable kind =
+      table == to_string(EnergyTable::envelope) ? EnergyTable::envelope : EnergyTable::buildings;
+  std::unordered_map<const Document*, std::vector<std::optional<int>>> storeys;
+  std::string text = "[";
+  for (const auto& one : results) {
+    if (!one->rules()) throw py::value_error("energy needs labels: the results of label()");
+    const Document& document = one->of().document();
+    auto stated = storeys.find(&document);
+    if (stated == storeys.end())
+      stated = storeys.emplace(&document, stated_storeys(document)).first;
+    const auto place = static_cast<std::size_t>(&one->of().building() - document.buildings.data());
+    BuildingEnergy of =
+        energy_of(one->building(), one->result(), *one->rules(), one->options(), {unheated});
+    if (const auto number = stated->second.at(place)) {
+      of.storeys = number;
+      of.storeys_source = "attribute";
+    }
+    const std::string rows = energy_rows(kind, TableFormat::json, of);
+    if (text.size() > 1 && !rows.empty()) text += ",";
+    text += rows;
+  }
+  return text + "]";
 }
 
 /// The verdict of a record, put among those of its building; the groups by their members.
@@ -406,6 +434,7 @@ void bind_features(py::module_& module) {
       .def("column", &column_named)
       .def("lists", &lists_named);
   module.def("features_of", &features_of, Unlocked());
+  module.def("energy_text", &energy_text, Unlocked());
   module.def("read_features", &read_features, Unlocked());
   module.def("interpret", &interpret_features, Unlocked());
   module.def("write_features", &write_features, Unlocked());

@@ -1,5 +1,6 @@
 """Features are the columns of the tables of the command."""
 import csv
+import json
 import unittest
 
 import numpy as np
@@ -16,6 +17,18 @@ def rows_of(path):
 
 
 class FeaturesTest(FolderTest):
+    def test_energy_has_the_rows_of_the_command(self):
+        labelled = oriel.label(HOUSE)
+        for table in ("energy", "envelope"):
+            path = self.folder / (table + ".json")
+            run("label", HOUSE, "--table", f"{table}={path}")
+            self.assertEqual(json.loads(path.read_text()), oriel.energy(labelled, table))
+        self.assertGreater(oriel.energy(labelled, unheated=[])[0]["volume_m3"], oriel.energy(labelled)[0]["volume_m3"])
+        with self.assertRaises(ValueError):
+            oriel.energy(labelled, "heat")
+        with self.assertRaises(ValueError):
+            oriel.energy(oriel.segment(HOUSE))
+
     def compare_column(self, rows, name, column):
         if column.dtype.kind == "U":
             self.assertEqual([row[name] for row in rows], list(column), name)
