@@ -49,6 +49,8 @@ def buildings(record, transform):
     for name, thing in record["CityObjects"].items():
         if thing["type"] not in ("Building", "BuildingPart") or not thing.get("geometry"):
             continue
+        if "oriel_member_of" in thing.get("attributes", {}):
+            continue
         best = max(thing["geometry"], key=lambda g: float(g["lod"]))
         if float(best["lod"]) < 1:
             continue

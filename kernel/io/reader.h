@@ -26,7 +26,8 @@ struct ReadOptions {
   /// what is generalised, repaired or validated is the building alone.
   bool joins_installations = true;
   /// Of CityJSON: a building whose geometry is part of another one's at this level of a series
-  /// (`oriel_member_of`) is read, too: without polygons. Else it is passed over.
+  /// (`oriel_member_of`) is read, too: without polygons. Else it is passed over, unless `lod` asks
+  /// for another level that it has.
   bool keeps_emptied = false;
   /// What is read is hashed, too.
   bool wants_sha256 = false;

@@ -131,7 +131,8 @@ std::string list_of(const Lods& lods) {
 GeometryChoice choose(const ObjectEntry& entry, Family& family,
                       const std::optional<std::string>& lod) {
   if (entry.fault) return {nullptr, entry.fault, Severity::error};
-  if (entry.emptied_lod && entry.geometries.empty()) return {};
+  if (entry.emptied_lod && (!lod || *lod == *entry.emptied_lod || entry.geometries.empty()))
+    return {};
   if (family.lods.empty()) {
     if (std::exchange(family.was_reported, true)) return {};
     return {nullptr,

@@ -82,7 +82,8 @@ const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod)
 /// of the highest one in the family (objects linked by parents and children); a solid before
 /// surfaces. Without one: an error for the family that has none at the lod asked for (E205), a note
 /// for a member of a family that has it elsewhere, a warning for a family without any geometry
-/// (E209). Entries with a fault get that.
+/// (E209). Entries with a fault get that. One that has lost the level to a block gets nothing,
+/// whatever other levels it has, unless one of these is asked for.
 std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
                                               const std::optional<std::string>& lod);
 
