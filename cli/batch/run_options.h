@@ -2,8 +2,8 @@
 
 #include "kernel/base/issue.h"
 #include "kernel/model/building.h"
-#include "kernel/neighbours/kept_ground.h"
 #include "oriel/label.h"
+#include "oriel/neighbours.h"
 #include "oriel/read.h"
 
 #include <cstdint>

@@ -2,8 +2,6 @@
 
 #include "cli/batch/inputs/input_files.h"
 #include "kernel/base/log.h"
-#include "kernel/geometry/boxes.h"
-#include "kernel/io/objects/ground_areas.h"
 #include "oriel/neighbours.h"
 #include "oriel/read.h"
 
@@ -15,7 +13,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace oriel::cli {
 
@@ -47,31 +44,6 @@ void add_input(const std::string& file, const RunOptions& options, NeighbourSear
   } catch (const InputError&) {
     run_log().debug("neighbours: {} cannot be read", file);
   }
-}
-
-/// Roads may end before they come to the buildings.
-constexpr double kBeside_m = 1000;
-
-/// Coordinates of another reference system lie somewhere else.
-void check_place(const KeptGround& kept, const NeighbourSearch& search, const std::string& file) {
-  Box all;
-  for (const StandingBuilding& building : search.buildings())
-    if (!building.box.is_empty()) all.grow(building.box.moved(building.origin_m));
-  const Box& its = kept.box();
-  if (all.is_empty()) return;
-  all = grown(all, kBeside_m);
-  const bool is_there = (its.min.x <= all.max.x && all.min.x <= its.max.x &&
-                         its.min.y <= all.max.y && all.min.y <= its.max.y);
-  if (is_there) return;
-  Issue issue;
-  issue.code = Code::E192;
-  issue.place.file = file;
-  issue.sentence = fmt::format(
-      "lies elsewhere: x from {:.6g} to {:.6g} and y from {:.6g} to {:.6g}, the buildings x from "
-      "{:.6g} to {:.6g} and y from {:.6g} to {:.6g}; it must be in their reference system",
-      its.min.x, its.max.x, its.min.y, its.max.y, all.min.x + kBeside_m, all.max.x - kBeside_m,
-      all.min.y + kBeside_m, all.max.y - kBeside_m);
-  throw InputError(std::move(issue));
 }
 
 }  // namespace
@@ -115,13 +87,8 @@ void find_neighbours(RunOptions& options, Report& report) {
 }
 
 void find_kept_ground(RunOptions& options) {
-  if (options.keep_free.empty()) return;
-  auto kept = std::make_shared<KeptGround>();
-  for (const std::string& file : options.keep_free)
-    for (auto& area : read_ground_areas(file)) kept->add(std::move(area));
-  kept->finish();
-  if (options.neighbours) check_place(*kept, *options.neighbours, options.keep_free.front());
-  options.kept = std::move(kept);
+  if (!options.keep_free.empty())
+    options.kept = read_kept_ground(options.keep_free, options.neighbours.get());
 }
 
 }  // namespace oriel::cli

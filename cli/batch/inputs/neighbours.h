@@ -20,8 +20,8 @@ std::vector<std::string> files_of_neighbours(const RunOptions& options);
 /// CLI::ValidationError if stdin is the only source: it can be read once only.
 void find_neighbours(RunOptions& options, Report& report);
 
-/// With --keep-free: reads the files and fills options.kept. Throws InputError: E190 as
-/// read_ground_areas() does, E192 if none of it lies where the buildings of options.neighbours are.
+/// With --keep-free: reads the files and fills options.kept. Throws InputError as
+/// read_kept_ground() does.
 void find_kept_ground(RunOptions& options);
 
 }  // namespace oriel::cli

@@ -1,0 +1,48 @@
+#include "oriel/neighbours.h"
+
+#include "kernel/io/objects/ground_areas.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+/// Roads may end before they come to the buildings.
+constexpr double kBeside_m = 1000;
+
+/// Coordinates of another reference system lie somewhere else.
+void check_place(const KeptGround& kept, const NeighbourSearch& search, const std::string& file) {
+  Box all;
+  for (const StandingBuilding& building : search.buildings())
+    if (!building.box.is_empty()) all.grow(building.box.moved(building.origin_m));
+  const Box& its = kept.box();
+  if (all.is_empty()) return;
+  const bool is_there = its.min.x <= all.max.x + kBeside_m && all.min.x <= its.max.x + kBeside_m &&
+                        its.min.y <= all.max.y + kBeside_m && all.min.y <= its.max.y + kBeside_m;
+  if (is_there) return;
+  Issue issue;
+  issue.code = Code::E192;
+  issue.place.file = file;
+  issue.sentence = fmt::format(
+      "lies elsewhere: x from {:.6g} to {:.6g} and y from {:.6g} to {:.6g}, the buildings x from "
+      "{:.6g} to {:.6g} and y from {:.6g} to {:.6g}; it must be in their reference system",
+      its.min.x, its.max.x, its.min.y, its.max.y, all.min.x, all.max.x, all.min.y, all.max.y);
+  throw InputError(std::move(issue));
+}
+
+}  // namespace
+
+std::shared_ptr<const KeptGround> read_kept_ground(const std::vector<std::string>& files,
+                                                   const NeighbourSearch* search) {
+  auto kept = std::make_shared<KeptGround>();
+  for (const std::string& file : files)
+    for (auto& area : read_ground_areas(file)) kept->add(std::move(area));
+  kept->finish();
+  if (search != nullptr && !kept->is_empty()) check_place(*kept, *search, files.front());
+  return kept;
+}
+
+}  // namespace oriel
