@@ -17,6 +17,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel {
 
@@ -494,6 +495,13 @@ std::optional<GeneralisedBuilding> as_part_of_group(const Building& building,
   return out;
 }
 
+/// Of a building that stands for others of its row.
+void add_stood_for(const std::vector<std::string>& ids, GeneralisedBuilding& made) {
+  if (ids.empty() || made.levels.empty()) return;
+  made.levels[0].labelled.attributes.emplace_back("oriel_members",
+                                                  fmt::format("{}", fmt::join(ids, ";")));
+}
+
 }  // namespace
 
 GeneralisedBuilding generalise(const Document& document, const Building& building,
@@ -522,6 +530,7 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
         if (options.groups && result.surroundings) {
           const auto more = options.groups->issues_of(*result.surroundings);
           made.issues.insert(made.issues.end(), more.begin(), more.end());
+          add_stood_for(options.groups->stood_for(*result.surroundings), made);
         }
         return made;
       },

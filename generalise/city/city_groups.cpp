@@ -7,6 +7,7 @@
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/neighbours/detached_rows.h"
 #include "kernel/validate/validate.h"
 
 #include <algorithm>
@@ -95,8 +96,21 @@ class Outsiders {
 
 }  // namespace
 
-bool asks_for_groups(const Profile& profile, double scale) {
+namespace {
+
+bool asks_for_rows(const Profile& profile, double scale) {
+  return profile.groups && profile.groups->row_ratio > 0 &&
+         scale >= profile.groups->rows_from_scale;
+}
+
+bool asks_for_blocks(const Profile& profile, double scale) {
   return profile.groups && scale >= profile.groups->from_scale;
+}
+
+}  // namespace
+
+bool asks_for_groups(const Profile& profile, double scale) {
+  return asks_for_blocks(profile, scale) || asks_for_rows(profile, scale);
 }
 
 CityGroups::CityGroups(const NeighbourSearch& search, const Profile& profile, double scale,
@@ -106,11 +120,15 @@ CityGroups::CityGroups(const NeighbourSearch& search, const Profile& profile, do
       unlike_(search.size()),
       kept_apart_(search.size()),
       kept_(kept) {
-  if (!asks_for_groups(profile, scale)) return;
+  if (asks_for_blocks(profile, scale)) find_blocks(profile, scale, each);
+  if (asks_for_rows(profile, scale)) find_rows(profile);
+}
+
+void CityGroups::find_blocks(const Profile& profile, double scale, const ForEachShare& each) {
   // What is no longer than the gaps that are closed is not seen in an outline either.
   const double least_m = profile.groups->gap_mm * kMillimetreOnMap * scale;
-  const GroupingLimits limits{least_m, profile.groups->like_height_m, kept};
-  AlikeGroups found = alike_groups(search, limits);
+  const GroupingLimits limits{least_m, profile.groups->like_height_m, kept_};
+  AlikeGroups found = alike_groups(search_, limits);
   for (AlikeGroup& group : found.groups) {
     for (const std::size_t member : group.members)
       group_of_[member] = static_cast<int>(groups_.size());
@@ -126,6 +144,53 @@ CityGroups::CityGroups(const NeighbourSearch& search, const Profile& profile, do
     unlike_[k].push_back(i);
   }
   each(groups_.size(), [&](std::size_t i) { make_solid(groups_[i], profile, least_m); });
+}
+
+/// Of buildings that nothing adjoins.
+void CityGroups::find_rows(const Profile& profile) {
+  const auto is_detached = [&](std::size_t i) { return group_of_[i] < 0 && unlike_[i].empty(); };
+  for (const DetachedRow& row : detached_rows(search_, profile.groups->like_height_m, is_detached))
+    add_row(row, profile.groups->row_ratio);
+}
+
+/// Those that stay are as far from each other as can be, both ends among them; the nearest one
+/// along the row stands for each of the others.
+void CityGroups::add_row(const std::vector<std::size_t>& row, double ratio) {
+  const auto count = static_cast<double>(row.size());
+  const auto staying = static_cast<std::size_t>(std::max(2.0, std::round(count * ratio)));
+  if (staying >= row.size()) return;
+  std::vector<std::size_t> places;
+  for (std::size_t j = 0; j < staying; ++j)
+    places.push_back((j * (row.size() - 1) + (staying - 1) / 2) / (staying - 1));
+  const auto far = [](std::size_t p, std::size_t q) { return p > q ? p - q : q - p; };
+  std::vector<std::pair<std::size_t, std::size_t>> members;  // and who stands for them
+  for (std::size_t i = 0; i < row.size(); ++i)
+    members.emplace_back(
+        row[i],
+        row[*std::ranges::min_element(places, {}, [&](std::size_t p) { return far(p, i); })]);
+  std::ranges::sort(members);
+  DrawnGroup& group = groups_.emplace_back();
+  for (const auto& [member, by] : members) {
+    group.found.members.push_back(member);
+    group.stays.push_back(by);
+    group_of_[member] = static_cast<int>(groups_.size()) - 1;
+  }
+}
+
+/// Of a building of a row.
+std::size_t CityGroups::standing_for(std::size_t building) const {
+  const DrawnGroup& group = groups_[static_cast<std::size_t>(group_of_[building])];
+  const auto found = std::ranges::lower_bound(group.found.members, building);
+  return group.stays[static_cast<std::size_t>(found - group.found.members.begin())];
+}
+
+std::vector<std::string> CityGroups::stood_for(const Neighbourhood& building) const {
+  std::vector<std::string> ids;
+  if (!building.self || group_of_[*building.self] < 0) return ids;
+  const DrawnGroup& group = groups_[static_cast<std::size_t>(group_of_[*building.self])];
+  for (std::size_t i = 0; i < group.stays.size(); ++i)
+    if (group.stays[i] == *building.self) ids.push_back(id(group.found.members[i]));
+  return ids.size() > 1 ? ids : std::vector<std::string>{};
 }
 
 /// How much of it the members of a group cover already.
@@ -216,8 +281,13 @@ std::optional<CityGroups::Membership> CityGroups::place_of(const Neighbourhood& 
   if (!building.self || group_of_[*building.self] < 0) return std::nullopt;
   const auto number = static_cast<std::size_t>(group_of_[*building.self]);
   const DrawnGroup& group = groups_[number];
+  if (is_row(number)) {
+    const std::size_t by = standing_for(*building.self);
+    return by == *building.self ? std::nullopt : std::optional(Membership{false, number, by});
+  }
   if (!group.solid) return std::nullopt;
-  return Membership{group.found.members.front() == *building.self, number};
+  const std::size_t leader = group.found.members.front();
+  return Membership{leader == *building.self, number, leader};
 }
 
 std::vector<std::string> CityGroups::members(std::size_t group) const {
@@ -248,6 +318,14 @@ std::vector<Issue> CityGroups::issues_of(const Neighbourhood& building) const {
   if (group_of_[self] < 0) return issues;
   const DrawnGroup& group = groups_[static_cast<std::size_t>(group_of_[self])];
   const std::size_t first = group.found.members.front(), others = group.found.members.size() - 1;
+  if (!group.stays.empty()) {
+    const std::size_t by = standing_for(self);
+    if (by != self)
+      add(Severity::note, Code::G421,
+          fmt::format("is left out of a row of {} buildings: '{}' stands for it", others + 1,
+                      id(by)));
+    return issues;
+  }
   if (group.solid && first == self)
     add(Severity::note, Code::G421,
         fmt::format("became one block with {}{}", counted(others, "other"),

@@ -20,8 +20,9 @@
 
 namespace oriel {
 
-/// Rows and blocks of a city: buildings that adjoin and are alike in height become one upright
-/// block (docs/generalisation.md, Rows and blocks).
+/// Rows and blocks of a city: buildings that adjoin and are alike in height become one
+/// block, and of rows of detached buildings some stand for all (docs/generalisation.md, Rows and
+/// blocks).
 class CityGroups {
  public:
   /// What the profile asks for at the scale, of the buildings of a search, which outlives it. All
@@ -32,11 +33,19 @@ class CityGroups {
 
   /// What becomes of one building.
   struct Membership {
-    bool leads = false;     ///< it gets the solid of the group, the others leave
-    std::size_t group = 0;  ///< its number
+    bool leads = false;      ///< it gets the solid of the group, the others leave
+    std::size_t group = 0;   ///< its number
+    std::size_t leader = 0;  ///< the building that leads, or stands for it in a row
   };
-  /// Nothing for a building that is in no group.
+  /// Nothing for a building that is in no group, and for one of a row that stays.
   [[nodiscard]] std::optional<Membership> place_of(const Neighbourhood& building) const;
+  /// The ids of a building of a row and of those that it stands for, ascending; none for others.
+  [[nodiscard]] std::vector<std::string> stood_for(const Neighbourhood& building) const;
+  /// A group without a solid is a row of detached buildings, some of which stay.
+  [[nodiscard]] bool is_row(std::size_t group) const { return !groups_[group].stays.empty(); }
+  [[nodiscard]] const std::string& id(std::size_t building) const {
+    return search_.buildings()[building].id;
+  }
 
   /// The solid, in the frame of the building that leads.
   [[nodiscard]] const Solid& solid(std::size_t group) const { return *groups_[group].solid; }
@@ -56,6 +65,8 @@ class CityGroups {
     bool is_gabled = false;
     Code code = Code::G422;  ///< why
     std::string fault;
+    /// Of a row: who stands for each member, parallel to them, itself if it stays. Else empty.
+    std::vector<std::size_t> stays{};
   };
 
   void make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const;
@@ -63,9 +74,10 @@ class CityGroups {
   [[nodiscard]] bool covers_kept(DrawnGroup& group,
                                  const std::vector<detail::Outline>& outlines) const;
   void look_at_kept(DrawnGroup& group);
-  [[nodiscard]] const std::string& id(std::size_t building) const {
-    return search_.buildings()[building].id;
-  }
+  void find_blocks(const Profile& profile, double scale, const ForEachShare& each);
+  void find_rows(const Profile& profile);
+  void add_row(const std::vector<std::size_t>& row, double ratio);
+  [[nodiscard]] std::size_t standing_for(std::size_t building) const;
 
   const NeighbourSearch& search_;
   std::vector<DrawnGroup> groups_;

@@ -56,12 +56,12 @@ void add_group_operations(std::span<const GroupsAtScale> scales, const Building&
     if (!in_block) continue;
     std::vector<std::string> members = at.groups->members(in_block->group);
     LevelState next = in_block->leads ? block_state(building, *at.groups, in_block->group, place)
-                                      : member_state(building, members.front());
+                                      : member_state(building, at.groups->id(in_block->leader));
     if (next == state) continue;
     SeriesOperation operation;
     operation.building = building.id;
-    operation.oriel_id = members.front();
-    operation.operation = "aggregate";
+    operation.oriel_id = at.groups->id(in_block->leader);
+    operation.operation = at.groups->is_row(in_block->group) ? "typify" : "aggregate";
     operation.rule = rule;
     operation.scale = at.scale;
     std::erase(members, building.id);

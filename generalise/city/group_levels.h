@@ -29,7 +29,9 @@ std::size_t first_in_block(std::span<const GroupsAtScale> scales, const Neighbou
 /// before, at that scale. The building that leads loses all facets and gains those of the block,
 /// with `oriel_members`; the others lose all facets and installations, and have `oriel_member_of`
 /// (the id of the block) and `oriel_member_lod`. A scale at which its group makes no valid block
-/// leaves it as it was. `oriel_id` is the id of the block, `with` are those of the other members.
+/// leaves it as it was. A building of a row that another one stands for becomes nothing in the same
+/// way, by an operation `typify`. `oriel_id` is the id of the block, or of what stands for it,
+/// `with` are those of the other members.
 void add_group_operations(std::span<const GroupsAtScale> scales, const Building& building,
                           const Neighbourhood& around, const std::string& rule, const Placer& place,
                           ScaleSeries& series);

@@ -93,7 +93,8 @@ class ProfileReader {
   }
 
   void read_groups(const YamlNode& node) {
-    YamlSection section(node, "'buildings'", {"aggregate", "gap-mm", "like-height-m", "from-scale"},
+    YamlSection section(node, "'buildings'",
+                        {"aggregate", "gap-mm", "like-height-m", "from-scale", "typify"},
                         findings_);
     if (!section.is_map()) return;
     if (const YamlNode* aggregate = section.require("aggregate");
@@ -107,6 +108,19 @@ class ProfileReader {
       groups.like_height_m = positive(*height, "'like-height-m'").value_or(groups.like_height_m);
     if (const YamlNode* scale = section.find("from-scale"))
       groups.from_scale = positive(*scale, "'from-scale'").value_or(groups.from_scale);
+    if (const YamlNode* rows = section.find("typify")) read_rows(*rows, groups);
+  }
+
+  void read_rows(const YamlNode& node, Profile::Groups& groups) {
+    YamlSection section(node, "'typify' of 'buildings'", {"ratio", "from-scale"}, findings_);
+    if (!section.is_map()) return;
+    if (const YamlNode* ratio = section.require("ratio")) {
+      groups.row_ratio = positive(*ratio, "'ratio'").value_or(0);
+      if (groups.row_ratio >= 1)
+        findings_.error(Code::R211, ratio->span, "'ratio' is below 1, else all of a row stays");
+    }
+    if (const YamlNode* scale = section.find("from-scale"))
+      groups.rows_from_scale = positive(*scale, "'from-scale'").value_or(groups.rows_from_scale);
   }
 
   void read_form(const YamlNode& node) {

@@ -68,6 +68,8 @@ struct Profile {
     double gap_mm = 0;           ///< on the map; narrower gaps between them are closed
     double like_height_m = 3;    ///< their roofs differ by no more
     double from_scale = 10'000;  ///< at larger scales each stays by itself
+    double row_ratio = 0;        ///< of a row of detached buildings this share stays; 0: all do
+    double rows_from_scale = 25'000;  ///< at larger scales all do
   };
   std::optional<Groups> groups;  ///< missing: none does
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,33 @@ TEST_SUITE("cli") {
       CHECK(surface_types(out, "a")["RoofSurface"] == 1);
       CHECK(run({"validate", folder / "out.city.json"}).exit == 0);
     }
+  }
+
+  TEST_CASE("of a row of detached houses some stand for all, with both ends") {
+    const Folder folder;
+    std::vector<Place> row;
+    for (int i = 0; i < 5; ++i) row.push_back({"h" + std::to_string(i), 20.0 * i});
+    const std::string city = folder.write("in.city.json", boxes(row).dump());
+    const std::string profile = town_profile(folder, "gap-mm: 0.2, typify: {ratio: 0.5}");
+    const auto generalised = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> call{"generalise", city, "--neighbours", "-v", "--profile", profile};
+      call.insert(call.end(), more.begin(), more.end());
+      return run(call);
+    };
+    CHECK(generalised({"--scale", "1:20000", "-o", folder / "out.city.json"}).exit == 0);
+    CHECK(ids_in(united_city(folder)).size() == 5);
+    const Outcome made = generalised({"--scale", "1:25000", "-o", folder / "out.city.json"});
+    CHECK(made.exit == 0);
+    CHECK(made.says("h1: G421 is left out of a row of 5 buildings: 'h0' stands for it"));
+    const json out = united_city(folder);
+    CHECK(ids_in(out) == std::set<std::string>{"h0", "h2", "h4"});
+    CHECK(out["CityObjects"]["h2"]["attributes"]["oriel_members"] == "h2;h3");
+    CHECK(generalised({"--series", "1:5000,1:25000", "-o", folder / "s"}).exit == 0);
+    CHECK(run({"generalise", "--check", "--from", folder / "s"}).exit == 0);
+    const json coarse = json::parse(bytes_of(folder / "s.1-25000.city.json"));
+    CHECK(coarse["CityObjects"]["h1"]["attributes"]["oriel_member_of"] == "h0");
+    CHECK(coarse["CityObjects"]["h4"]["geometry"].size() == 1);
+    CHECK(bytes_of(folder / "s.oplog.jsonl").find("\"operation\":\"typify\"") != std::string::npos);
   }
 
   TEST_CASE("a gap that a road runs through stays open") {
@@ -202,7 +230,8 @@ TEST_SUITE("cli") {
                              {"e", 0, 10, 10, 10, 20}});
     const Outcome made = united(folder, city);
     CHECK(made.exit == 0);
-    for (const std::string said : {"E175", "in: E176", "E178", "e: G423"}) CHECK_MESSAGE(made.says(said), said);
+    for (const std::string said : {"E175", "in: E176", "E178", "e: G423"})
+      CHECK_MESSAGE(made.says(said), said);
     CHECK(run({"validate", folder / "out.city.json"}).exit == 0);
     json other = boxes({{"x", 40}});
     other["metadata"] = {{"referenceSystem", "https://www.opengis.net/def/crs/EPSG/0/7415"}};

@@ -131,6 +131,11 @@ TEST_SUITE("interpret") {
     CHECK(codes_of("{form: as-is, buildings: {aggregate: all}}") == "R211 ");
     CHECK(codes_of("{form: as-is, buildings: {gap-mm: 0.2}}") == "R210 ");
     CHECK(codes_of("{form: as-is, buildings: {aggregate: touching, like-height-m: 0}}") == "R211 ");
+    CHECK(codes_of("{form: as-is, buildings: {aggregate: touching, typify: {ratio: 0.5}}}") == "");
+    CHECK(codes_of("{form: as-is, buildings: {aggregate: touching, typify: {ratio: 1}}}") ==
+          "R211 ");
+    CHECK(codes_of("{form: as-is, buildings: {aggregate: touching, typify: {from-scale: 9000}}}") ==
+          "R210 ");
     CHECK(codes_of("{form: as-is, omits: [door]}") == "R209 ");
     CHECK(codes_of("{form: as-is, parts: {height-m: 3, area-m2: 4}}") == "");
     CHECK(codes_of("{form: as-is, parts: {height-m: 3}}") == "R210 ");
