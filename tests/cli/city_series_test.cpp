@@ -153,7 +153,7 @@ TEST_SUITE("cli") {
 
   TEST_CASE("a series of a town has the same blocks in streams, shards and threads") {
     const Folder folder;
-    const std::string whole = town(folder, 12), profile = town_profile(folder);
+    const std::string whole = town(folder, 8), profile = town_profile(folder);
     const std::vector<std::string> lines = lines_of(bytes_of(whole));
     const auto made = [&](const std::string& from, const std::string& to,
                           const std::vector<std::string>& more) {
