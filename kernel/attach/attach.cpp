@@ -230,7 +230,8 @@ class Attacher {
       if (!is_of_notch(p) && !detail::contains(outlines, normal, corner(p))) return false;
       for_each_edge(contacts_[contact], [&](int a, int b) {
         const bool is_cut = std::pair{a, b} == edge_ || std::pair{b, a} == edge_;
-        if (is_cut && (is_of_notch(p) || is_of_notch(q))) return;
+        // On the second contact the depth of the body lies between: it is as it is.
+        if (is_cut && (contact == 1 || is_of_notch(p) || is_of_notch(q))) return;
         const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
         is_clear = is_clear && detail::distance({corner(p), corner(q)}, edge) >= clear_m_;
       });
