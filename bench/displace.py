@@ -140,8 +140,8 @@ def measured(program, files, scale, gap_m):
         with open(why, encoding="utf-8") as lines:
             for one in map(json.loads, lines):
                 if one["outcome"] == "refused" and one["operation"] == "displace":
-                    text = re.sub(r"\d+(\.\d+)?", "…", one["reason"])
-                    reasons[one["building"], one["feature"]] = re.sub(r"\bf[a-z0-9]{13}\b", "…", text)
+                    cause = re.split(r", beside |; it would ", one["reason"])[0]
+                    reasons[one["building"], one["feature"]] = re.sub(r"\d+(\.\d+)?", "…", cause)
         for path in sorted(glob.glob(before + "*.json")):
             later = facades_of(os.path.join(after, os.path.basename(path)))
             for (building, plane), openings in facades_of(path).items():

@@ -5,7 +5,7 @@
 
 Prints two tables in Markdown: operator by scale (features asked for, changed or gone, refused, their share), and
 operator by cause. "Asked for" counts the features that a step of the plan names, without those that need nothing
-(outcome "kept"): large enough, alone in their row. Results that are not valid when they are read back are counted
+(outcome "kept"): large enough, alone in their row, and without those that were pushed by others. Results that are not valid when they are read back are counted
 at the end; `omit` is counted as any other operator.
 """
 import collections
@@ -55,11 +55,12 @@ def main():
                 if invalid_of(program, written) != 0:
                     invalid.append(f"{name} at 1:{scale}")
             for one in found:
-                if not one["operation"] or one["outcome"] == "kept":
+                if not one["operation"] or one["outcome"] == "kept" or one["reason"].startswith("pushed by "):
                     continue
                 asked[one["operation"], scale][one["outcome"]] += 1
                 if one["outcome"] == "refused":
-                    causes[one["operation"], re.sub(r"\d+(\.\d+)?", "…", one["reason"])] += 1
+                    cause = re.split(r", beside |; it would ", one["reason"])[0]
+                    causes[one["operation"], re.sub(r"\d+(\.\d+)?", "…", cause)] += 1
     print("| operator | scale | asked for | refused | share |\n|---|---|---|---|---|")
     for (operation, scale), counts in sorted(asked.items()):
         total, refused = sum(counts.values()), counts["refused"]

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -115,6 +116,7 @@ class InvariantEnforcer {
     validator_.settled = invariants.settled;
     validator_.work = invariants.work;
     validator_.complex = std::make_shared<std::optional<CellComplex>>();
+    validator_.hindrances = std::make_shared<std::map<FeatureId, Hindrance>>();
     validator_.violation_of = [this](const Solid& left) { return violation_by(left); };
   }
 
@@ -169,9 +171,15 @@ class InvariantEnforcer {
     const std::size_t count = undone_.size();
     for (const ShortEdge& edge : short_edges_of_drawn(solid_, out.solid, segmentation_, out.changed,
                                                       out.removed, invariants_.least_edge_m))
-      if (may_be_undone(edge.feature))
-        undo_task(edge.feature, fmt::format("an edge of {:.2f} m would be drawn", edge.length_m));
+      if (const FeatureId id = cause_of(edge.feature, out); may_be_undone(id))
+        undo_task(id, fmt::format("an edge of {:.2f} m would be drawn", edge.length_m));
     return undone_.size() > count;
+  }
+
+  /// What pushed it, if anything did.
+  static FeatureId cause_of(FeatureId id, const CarriedOut& out) {
+    const auto pushed = std::ranges::find(out.pushed, id, &PushedFeature::feature);
+    return pushed == out.pushed.end() ? id : pushed->by;
   }
 
   /// With all that is drawn together with the feature.

@@ -16,6 +16,11 @@ struct UnclearedEdge {
   std::string reason;
 };
 
+/// An opening that was moved aside, and the feature that it made room for.
+struct PushedFeature {
+  FeatureId feature, by;
+};
+
 /// A building after the steps of a plan.
 struct CarriedOut {
   Solid solid;
@@ -33,6 +38,8 @@ struct CarriedOut {
   /// Features that look different now; they are not among the removed. Ascending.
   std::vector<FeatureId> changed{};
   std::vector<UnclearedEdge> uncleared{};
+  /// Those of the changed that have no step: openings that made room.
+  std::vector<PushedFeature> pushed{};
 };
 
 /// Features that may be pieces of something larger: a plinth, the eaves, a parapet.
@@ -69,7 +76,9 @@ CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const
 /// at once, then those operators that leave something put it in their place, in the order of the
 /// features; what moves facets (flatten) and outlines come last. What cannot be taken off (G401) or
 /// put back (G403) is left as it was, and the rest is done again without it: no feature is ever
-/// half changed. Steps for groups are carried out together or not at all. `validator` as omit()
+/// half changed. Steps for groups are carried out together or not at all, but for those of which
+/// some may stay (Operator::takes_some). Openings that are in the way of one that is enlarged are
+/// moved aside with it (pushes_of); where they have no room, it grows less. `validator` as omit()
 /// takes it.
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                            const SegmentOptions& options, const SolidValidator& validator);

@@ -1,10 +1,13 @@
 #include "generalise/carry_out.h"
+#include "generalise/operators/hindrance.h"
 #include "generalise/operators/operators.h"
+#include "generalise/operators/push.h"
 #include "generalise/tasks.h"
 
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -25,9 +28,9 @@ class StepRunner {
 
   CarriedOut run() {
     while (true) {
-      const std::size_t failures = failed_.size();
+      const std::size_t failures = failed_.size() + unpushed_.size();
       CarriedOut out = attempt();
-      if (failed_.size() > failures) {
+      if (failed_.size() + unpushed_.size() > failures) {
         if (is_used_up(validator_.work)) return nothing_carried_out(solid_, plan_);
         continue;
       }
@@ -42,20 +45,38 @@ class StepRunner {
     return segmentation_.features[step.feature.index()];
   }
 
-  void fail(const Step& step, Code code, const std::string& reason,
-            const Hindrance& hindrance = {}) {
-    failed_.try_emplace(step.feature, CarriedOut::Refused{step.feature, code, reason, hindrance});
+  void fail(const Step& step, Code code, const std::string& reason) {
+    CarriedOut::Refused refused{step.feature, code, reason};
+    if (code == Code::G403 && validator_.hindrances)
+      if (const auto known = validator_.hindrances->find(step.feature);
+          known != validator_.hindrances->end())
+        refused.hindrance = known->second;
+    failed_.try_emplace(step.feature, std::move(refused));
   }
-  void fail(const detail::PlanTask& task, Code code, const std::string& reason,
-            const Hindrance& hindrance = {}) {
-    for (const Step& step : task.steps) fail(step, code, reason, hindrance);
+  void fail(const detail::PlanTask& task, Code code, const std::string& reason) {
+    for (const Step& step : task.steps) fail(step, code, reason);
   }
   void fail(const detail::PlanTask& task, const detail::Placed& placed) {
     const auto code_of = [](bool is_needless) { return is_needless ? Code::none : Code::G403; };
-    if (placed.left.empty())
-      return fail(task, code_of(placed.is_needless), placed.reason, placed.hindrance);
+    if (placed.left.empty()) return fail(task, code_of(placed.is_needless), placed.reason);
     for (const detail::Placed::Left& one : placed.left)
-      fail(task.steps[one.member], code_of(one.is_needless), one.reason, one.hindrance);
+      fail(task.steps[one.member], code_of(one.is_needless), one.reason);
+  }
+
+  /// What hinders the operator is looked for once.
+  [[nodiscard]] bool wants_hindrance(const detail::PlanTask& task) const {
+    return validator_.hindrances && std::ranges::any_of(task.steps, [&](const Step& step) {
+             return !validator_.hindrances->contains(step.feature);
+           });
+  }
+  void keep_hindrance(const detail::PlanTask& task, const Operator& its, const Redrawing& asked,
+                      const detail::Placed& placed) const {
+    for (const detail::Placed::Left& one : placed.left)
+      if (!one.is_needless)
+        validator_.hindrances->try_emplace(task.steps[one.member].feature, one.hindrance);
+    if (!placed.left.empty() || placed.is_needless) return;
+    const Hindrance found = detail::hindrance_of(its, asked);
+    for (const Step& step : task.steps) validator_.hindrances->try_emplace(step.feature, found);
   }
 
   /// Takes everything off and puts back what operators leave; what fails is not tried again.
@@ -66,14 +87,93 @@ class StepRunner {
       off.steps.push_back(step);
       off.steps.back().operation = "omit";
     }
+    const std::vector<detail::Push> pushes = add_pushed(off);
     Remainder remainder = omit(solid_, segmentation_, off, options_, validator_);
     CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
     for (const detail::PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
     for (const Refusal& refusal : remainder.refused)
-      if (!failed_.contains(refusal.feature))
+      if (is_pushed(refusal.feature, pushes))
+        unpushed_.insert(refusal.feature);
+      else if (!failed_.contains(refusal.feature))
         out.refused.push_back({refusal.feature, refusal.code, refusal.reason});
-    for (const detail::PlanTask& task : tasks_) put_back(task, out);
+    // What others make room for comes first, and then they.
+    const auto pushes_others = [&](const detail::PlanTask& task) {
+      return std::ranges::any_of(pushes, [&](const detail::Push& push) {
+        return std::ranges::find(push.by, task.steps[0].feature, &Step::feature) != push.by.end();
+      });
+    };
+    for (const detail::PlanTask& task : tasks_)
+      if (pushes_others(task)) put_back(task, out);
+    for (const detail::Push& push : pushes) put_aside(push, out);
+    for (const detail::PlanTask& task : tasks_)
+      if (!pushes_others(task)) put_back(task, out);
     return out;
+  }
+
+  static bool is_pushed(FeatureId id, const std::vector<detail::Push>& pushes) {
+    return std::ranges::any_of(pushes, [&](const detail::Push& push) {
+      return std::ranges::find(push.pushed, id, &Step::feature) != push.pushed.end();
+    });
+  }
+
+  /// It is as its operator wants it, and so there to be pushed.
+  [[nodiscard]] bool is_kept(FeatureId id) const {
+    const auto failed = failed_.find(id);
+    return failed != failed_.end() && failed->second.code == Code::none;
+  }
+
+  /// What makes room is taken off as well.
+  [[nodiscard]] std::vector<detail::Push> add_pushed(Plan& off) const {
+    std::vector<Step> pushing;
+    std::ranges::copy_if(plan_.steps, std::back_inserter(pushing), [&](const Step& step) {
+      return step.openings && !failed_.contains(step.feature);
+    });
+    if (pushing.empty()) return {};
+    std::vector<FeatureId> excluded(unpushed_.begin(), unpushed_.end());
+    for (const Step& step : plan_.steps)
+      if (!is_kept(step.feature)) excluded.push_back(step.feature);
+    std::ranges::sort(excluded);
+    auto pushes = detail::pushes_of(segmentation_, pushing, plan_.scale, excluded);
+    for (const detail::Push& push : pushes)
+      for (const Step& step : push.pushed) {
+        off.steps.push_back(step);
+        off.steps.back().operation = "omit";
+      }
+    std::ranges::sort(off.steps, {}, &Step::feature);
+    return pushes;
+  }
+
+  /// Puts what made room back, beside what has grown. What cannot be put back so is in the way
+  /// after all.
+  void put_aside(const detail::Push& push, CarriedOut& out) {
+    std::vector<Step> some;
+    for (const Step& step : push.pushed)
+      if (std::ranges::binary_search(out.removed, step.feature) && !went_with_another(step, out))
+        some.push_back(step);
+    if (some.empty()) return;
+    detail::Placed placed =
+        detail::push_aside({out.solid, segmentation_, some, plan_.scale}, push.by);
+    for (const detail::Placed::Left& one : placed.left) unpushed_.insert(some[one.member].feature);
+    if (!placed.solid) return;
+    out.solid = std::move(*placed.solid);
+    for (const Step& step : some) {
+      std::erase(out.removed, step.feature);
+      out.changed.push_back(step.feature);
+      out.pushed.push_back({step.feature, nearest_of(push.by, step.feature)});
+    }
+    std::ranges::sort(out.changed);
+  }
+
+  /// The one whose middle is nearest.
+  [[nodiscard]] FeatureId nearest_of(const std::vector<Step>& steps, FeatureId id) const {
+    const auto middle = [&](FeatureId of) {
+      const Box& box = segmentation_.features[of.index()].box;
+      return 0.5 * (box.min + box.max);
+    };
+    return std::ranges::min_element(
+               steps, {},
+               [&](const Step& step) { return length(middle(step.feature) - middle(id)); })
+        ->feature;
   }
 
   void fail_if_refused(const detail::PlanTask& task, const std::vector<Refusal>& refused) {
@@ -120,8 +220,13 @@ class StepRunner {
 
   void redraw(const detail::PlanTask& task, CarriedOut& out) {
     const Operator& its = operator_named(task.operation);
-    detail::Placed placed = its.redraw({out.solid, segmentation_, task.steps, plan_.scale});
-    if (!placed.solid) return fail(task, placed);
+    const bool tells_needs = wants_hindrance(task);
+    const Redrawing asked{out.solid, segmentation_, task.steps, plan_.scale, tells_needs};
+    detail::Placed placed = its.redraw(asked);
+    if (!placed.solid) {
+      if (tells_needs) keep_hindrance(task, its, asked, placed);
+      return fail(task, placed);
+    }
     if (task.operation == "flatten" && validator_ &&
         validator_.fitness_of(*placed.solid) == Fitness::unfit)
       return fail(task, Code::G403, "the moved facet would meet another part");
@@ -141,6 +246,7 @@ class StepRunner {
   const SolidValidator& validator_;
   std::vector<detail::PlanTask> tasks_;
   std::map<FeatureId, CarriedOut::Refused> failed_;
+  std::set<FeatureId> unpushed_;  ///< they stay where they are
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segm
     Issue note =
         building_issue(Severity::note, refusal.code, table.building(),
                        fmt::format("is a part of the building and stays at {}: without it {}",
-                                   target, refusal.reason));
+                                   target, reason_of(refusal, table)));
     note.place.feature = table.id(refusal.feature);
     return note;
   }
@@ -32,10 +32,10 @@ Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segm
   Issue issue =
       building_issue(is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
                      is_piece ? fmt::format("is a piece of {} and stays with it at {}: {}",
-                                            table.id(parent), target, refusal.reason)
+                                            table.id(parent), target, reason_of(refusal, table))
                               : fmt::format("is not {} at {}: {}",
                                             refusal.code == Code::G403 ? "changed" : "omitted",
-                                            target, refusal.reason));
+                                            target, reason_of(refusal, table)));
   issue.place.feature = table.id(refusal.feature);
   return issue;
 }
@@ -59,6 +59,28 @@ Pieces pieces_of(const Plan& plan, const FeatureTable& table,
   for (int i = 0; i < static_cast<int>(table.rows()); ++i)
     pieces.c_m.push_back(table.number(FeatureId{i}, Attribute::c).value_or(Box::kInfinity));
   return pieces;
+}
+
+/// Of what was moved aside the step is that of what it made room for.
+void tell_pusher(FeatureId id, const Plan& plan, const Generalised& generalised,
+                 const FeatureTable& table, FeatureOutcome& outcome) {
+  const auto pushed = std::ranges::find(generalised.pushed, id, &PushedFeature::feature);
+  if (pushed == generalised.pushed.end()) return;
+  const auto step = std::ranges::find(plan.steps, pushed->by, &Step::feature);
+  if (step == plan.steps.end()) return;
+  outcome.operation = step->operation;
+  outcome.rule = step->rule;
+  outcome.reason = "pushed by " + table.id(pushed->by);
+}
+
+/// As many features in the way are named in a sentence.
+constexpr std::size_t kMostBeside = 3;
+
+std::string text_of(const Need& need) {
+  if (need.what == "count") return fmt::format("{:.0f} fewer in the row", need.less);
+  if (need.what == "ratio") return fmt::format("a ratio of {:.2f}", need.then);
+  return fmt::format("a {} of {:.3f} m, {:.3f} m less", need.what == "to" ? "size" : need.what,
+                     need.then, need.less);
 }
 
 }  // namespace
@@ -94,8 +116,20 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
   }
   out.value = Generalised{
       std::move(done.solid),   std::move(done.removed),   std::move(done.refused), false,
-      std::move(done.changed), std::move(done.uncleared), closing_faces(solid)};
+      std::move(done.changed), std::move(done.uncleared), closing_faces(solid),    {},
+      std::move(done.pushed)};
   return out;
+}
+
+std::string reason_of(const CarriedOut::Refused& refused, const FeatureTable& table) {
+  const auto& [needs, beside] = refused.hindrance;
+  std::string text = refused.reason;
+  for (std::size_t i = 0; i < std::min(beside.size(), kMostBeside); ++i)
+    text += (i == 0 ? ", beside " : ", ") + table.id(beside[i]);
+  if (beside.size() > kMostBeside) text += fmt::format(" and {} more", beside.size() - kMostBeside);
+  for (std::size_t i = 0; i < needs.size(); ++i)
+    text += (i == 0 ? "; it would with " : " or ") + text_of(needs[i]);
+  return text;
 }
 
 std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised& generalised,
@@ -117,14 +151,17 @@ std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised
     if (is_gone)
       one.outcome =
           one.operation == "omit" || one.operation == "flatten" ? "omitted" : "went along";
-    else if (std::ranges::binary_search(generalised.changed, id))
+    else if (std::ranges::binary_search(generalised.changed, id)) {
       one.outcome = "changed";
-    else if (refused != generalised.refused.end()) {
+      tell_pusher(id, plan, generalised, table, one);
+    } else if (refused != generalised.refused.end()) {
       one.outcome = refused->code == Code::none || is_part(*refused, plan, interpretation)
                         ? "kept"
                         : "refused";
       one.code = refused->code;
-      one.reason = refused->reason;
+      one.reason = reason_of(*refused, table);
+      one.needs = refused->hindrance.needs;
+      for (const FeatureId other : refused->hindrance.beside) one.beside.push_back(table.id(other));
     } else {
       one.outcome = "kept";
     }

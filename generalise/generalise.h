@@ -43,6 +43,8 @@ struct Generalised {
   std::vector<ClosingFace> closing{};
   /// Imprints that stay but get no facet of their own, ascending.
   std::vector<FeatureId> undrawn{};
+  /// Those of the changed that have no step: openings that made room.
+  std::vector<PushedFeature> pushed{};
 };
 
 /// What was to go for its size only turns out to be a part of the building: without it something
@@ -106,8 +108,14 @@ struct FeatureOutcome {
   /// "went along": with what carries it or with its row; "refused": it is as it was.
   std::string outcome;
   Code code = Code::none;  ///< of a refusal, and of a part
-  std::string reason;      ///< of a refusal, and of a part
+  std::string reason;      ///< of a refusal, of a part, and of what was pushed
+  /// Of a refusal: what would let the operator act, and the ids of what is in its way.
+  std::vector<Need> needs{};
+  std::vector<std::string> beside{};
 };
+
+/// The reason of a refusal, with what would let the operator act.
+std::string reason_of(const CarriedOut::Refused& refused, const FeatureTable& table);
 
 /// One for each feature, in their order.
 std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised& generalised,

@@ -86,6 +86,15 @@ void add_found_again(const TargetFigures& figures, ordered_json& line) {
   line["labels"] = std::move(by_label);
 }
 
+nlohmann::ordered_json needs_json(const std::vector<Need>& needs) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Need& need : needs) {
+    const std::string unit = need.what == "gap" || need.what == "to" ? "_m" : "";
+    list.push_back({{"what", need.what}, {"less" + unit, need.less}, {"then" + unit, need.then}});
+  }
+  return list;
+}
+
 }  // namespace
 
 void ChangeReport::name_files(NamedFiles& files) const {
@@ -116,13 +125,18 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
       line["rule"] = one.rule;
       line["code"] = to_string(one.code);
       line["reason"] = one.reason;
+      if (!one.needs.empty()) line["needs"] = needs_json(one.needs);
+      if (!one.beside.empty()) line["beside"] = one.beside;
       all += line.dump(-1, ' ', false, kReplace) + "\n";
       continue;
     }
     std::string text = fmt::format("{} {} {} {}: {}", target, building, one.feature,
                                    one.label.empty() ? "unknown" : one.label, one.outcome);
     if (!one.operation.empty()) text += fmt::format(", {} by {}", one.operation, one.rule);
-    if (!one.reason.empty()) text += fmt::format(" ({} {})", to_string(one.code), one.reason);
+    if (one.code != Code::none)
+      text += fmt::format(" ({} {})", to_string(one.code), one.reason);
+    else if (!one.reason.empty())
+      text += fmt::format(" ({})", one.reason);
     all += printable(text) + '\n';
   }
   return all;

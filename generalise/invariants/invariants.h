@@ -1,5 +1,6 @@
 #pragma once
 
+#include "generalise/needs.h"
 #include "kernel/base/code.h"
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
@@ -10,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -87,6 +89,9 @@ struct SolidValidator {
   /// Keeps the cell complex of the segmentation from the first time that it is asked for, for all
   /// that is tried with it; null: nothing is kept.
   std::shared_ptr<std::optional<CellComplex>> complex{};
+  /// Keeps what hinders operators, by feature, from the first time that they are refused; null: it
+  /// is not looked for.
+  std::shared_ptr<std::map<FeatureId, Hindrance>> hindrances{};
 
   explicit operator bool() const { return static_cast<bool>(fitness_of); }
 };

@@ -19,6 +19,9 @@ using detail::Extents;
 using detail::Host;
 using detail::Placed;
 
+/// Gaps that would do are told to the centimetre.
+constexpr double kGapStep_m = 0.01;
+
 /// An opening of a facade.
 struct FacadeMember {
   std::size_t member = 0;  ///< of the task
@@ -44,41 +47,23 @@ class FacadeDisplacer {
   /// Puts them on the solid, or says which of them stay.
   void run(Placed& out) const {
     const detail::FacadePlaces found = room_.arrange(movables_, task_.gap_m());
-    if (found.places.empty()) return leave_crowded(found, out);
+    if (!found.has_room()) return leave_crowded(found, out);
     const bool had_none = out.left.empty();
     for (std::size_t i = 0; i < members_.size(); ++i)
-      if (!is_moved(members_[i].now, found.places[i])) leave_as_it_is(i, out);
+      if (!detail::is_moved(members_[i].now, found.places[i])) leave_as_it_is(i, out);
     if (had_none && !out.left.empty()) return;
     for (std::size_t i = 0; i < members_.size() && out.solid; ++i) {
-      Placed placed = put(members_[i], found.places[i], found.clear_m[i], *out.solid);
+      const FacadeMember& one = members_[i];
+      Placed placed = put_on_facade(*out.solid, task_.segmentation, host_, found.places[i],
+                                    one.depth_m, found.clear_m[i], task_.feature(one.member));
       if (placed.solid)
         out.solid = std::move(placed.solid);
       else
-        out.left.push_back({members_[i].member, std::move(placed.reason), false, {}});
+        out.left.push_back({one.member, std::move(placed.reason), false, {}});
     }
   }
 
  private:
-  /// On the facade it has its distances; what is nearer lies behind the wall, such as a recess in
-  /// the next wall, around the corner.
-  [[nodiscard]] Placed put(const FacadeMember& one, const Extents& where, double clear_m,
-                           const Solid& solid) const {
-    const Feature& feature = task_.feature(one.member);
-    Placed placed = place_like(solid, task_.segmentation, host_, where, one.depth_m, feature.sense,
-                               clear_m, feature);
-    for (const double share : {0.5, 0.25, 0.125})
-      if (!placed.solid)
-        placed = place_like(solid, task_.segmentation, host_, where, one.depth_m, feature.sense,
-                            share * clear_m, feature);
-    return placed;
-  }
-
-  static bool is_moved(const Extents& now, const Extents& then) {
-    const double most = std::max({std::abs(now.u0 - then.u0), std::abs(now.u1 - then.u1),
-                                  std::abs(now.v0 - then.v0), std::abs(now.v1 - then.v1)});
-    return most > detail::kNoShift_m;
-  }
-
   void leave_as_it_is(std::size_t i, Placed& out) const {
     out.left.push_back({members_[i].member, "there is room enough", true, {}});
   }
@@ -87,13 +72,34 @@ class FacadeDisplacer {
   void leave_crowded(const detail::FacadePlaces& found, Placed& out) const {
     std::set<int> rows;
     for (const std::size_t i : found.crowded) rows.insert(movables_[i].row);
+    Hindrance hindrance{{}, found.beside};
+    if (task_.tells_needs) add_needs(rows, hindrance);
     for (std::size_t i = 0; i < members_.size(); ++i)
       if (rows.contains(movables_[i].row))
         out.left.push_back(
             {members_[i].member,
              fmt::format("its wall has no room for the row: {:.2f} m are missing", found.lacking_m),
-             false,
-             {{}, found.beside}});
+             false, hindrance});
+  }
+
+  /// With what gap the rows would have room, and how many of them would have to go.
+  void add_needs(const std::set<int>& rows, Hindrance& out) const {
+    std::vector<detail::Movable> some;
+    for (const detail::Movable& one : movables_)
+      if (rows.contains(one.row)) some.push_back(one);
+    const double gap_m = task_.gap_m();
+    double good_m = 0, bad_m = gap_m;
+    while (bad_m - good_m > kGapStep_m) {
+      const double middle_m = (good_m + bad_m) / 2;
+      (room_.arrange(some, middle_m).has_room() ? good_m : bad_m) = middle_m;
+    }
+    if (good_m > 0) out.needs.push_back({"gap", gap_m - good_m, good_m});
+    const std::size_t all = some.size();
+    for (auto left = room_.arrange(some, gap_m); !left.has_room();
+         left = room_.arrange(some, gap_m))
+      some.erase(some.begin() + static_cast<std::ptrdiff_t>(left.crowded[left.crowded.size() / 2]));
+    out.needs.push_back(
+        {"count", static_cast<double>(all - some.size()), static_cast<double>(some.size())});
   }
 
   const Redrawing& task_;

@@ -48,54 +48,77 @@ double distance_of(const Extents& a, const Extents& b) {
   return std::hypot(std::max(0.0, apart(along(a), along(b))), std::max(0.0, apart(up(a), up(b))));
 }
 
-/// The feature that the facet on the other side of an edge is of, the smallest one.
-FeatureId owner_beyond(const Solid& solid, const Segmentation& segmentation, int a, int b) {
-  const auto has_edge = [&](const Loop& loop) {
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      if (loop[i] == b && loop[(i + 1) % loop.size()] == a) return true;
-    return false;
-  };
-  FeatureId owner;
-  for (const Facet& facet : solid.facets) {
-    if (facet.polygons.empty() || std::ranges::none_of(facet.loops, has_edge)) continue;
-    for (int f = 0; f < std::ssize(segmentation.features); ++f) {
-      const auto& its = segmentation.features[at(f)].source_polygons;
-      if (!std::ranges::includes(its, facet.polygons)) continue;
-      if (!owner.is_valid() ||
-          its.size() < segmentation.features[owner.index()].source_polygons.size())
-        owner = {f};
-    }
-  }
-  return owner;
+/// How far a line is from a rectangle.
+double distance_of(const Extents& box, Vec3 from, Vec3 to) {
+  const std::array<Vec3, 4> corners{Vec3{box.u0, box.v0, 0}, Vec3{box.u1, box.v0, 0},
+                                    Vec3{box.u1, box.v1, 0}, Vec3{box.u0, box.v1, 0}};
+  double least_m = kInfinity;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    least_m = std::min(least_m, distance({corners.at(c), corners.at((c + 1) % 4)}, {from, to}));
+  return least_m;
 }
 
 }  // namespace
 
-FacadeRoom::FacadeRoom(const Solid& solid, const Segmentation& segmentation, const Host& host) {
+FacadeRoom::FacadeRoom(const Solid& solid, const Segmentation& segmentation, const Host& host)
+    : solid_(&solid), segmentation_(&segmentation) {
   const Facet& facet = solid.facets[host.facet.index()];
   for (const Loop& loop : facet.loops)
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vec3 p = solid.vertices[at(loop[i])].point;
-      const Vec3 q = solid.vertices[at(loop[(i + 1) % loop.size()])].point;
-      // The facet lies to the left of its edges: over those that run along u.
+      const int a = loop[i], b = loop[(i + 1) % loop.size()];
+      const Vec3 p = solid.vertices[at(a)].point, q = solid.vertices[at(b)].point;
       const bool is_foot = dot(q - p, host.u) > 0 && std::abs(dot(q - p, host.v)) < kOnFoot_m;
-      lines_.push_back({dot(p, host.u), dot(p, host.v), dot(q, host.u), dot(q, host.v), is_foot,
-                        owner_beyond(solid, segmentation, loop[i], loop[(i + 1) % loop.size()])});
+      lines_.push_back(
+          {dot(p, host.u), dot(p, host.v), dot(q, host.u), dot(q, host.v), is_foot, {}, a, b});
     }
   for (int f = 0; f < std::ssize(segmentation.features); ++f) {
     const Feature& other = segmentation.features[at(f)];
     if (other.sense == Sense::imprint && !other.source_polygons.empty() &&
         std::ranges::includes(facet.polygons, other.source_polygons))
-      add_fixed(extents_of(host, segmentation, other), {f});
+      add_outline(extents_of(host, segmentation, other), {f});
   }
 }
 
-void FacadeRoom::add_fixed(const Extents& box, FeatureId owner) {
+void FacadeRoom::add_outline(const Extents& box, FeatureId imprint) {
   // Clockwise, as a hole: the facet lies to the left.
-  lines_.push_back({box.u1, box.v0, box.u0, box.v0, false, owner});
-  lines_.push_back({box.u0, box.v0, box.u0, box.v1, false, owner});
-  lines_.push_back({box.u0, box.v1, box.u1, box.v1, false, owner});
-  lines_.push_back({box.u1, box.v1, box.u1, box.v0, false, owner});
+  lines_.push_back({box.u1, box.v0, box.u0, box.v0, false, imprint});
+  lines_.push_back({box.u0, box.v0, box.u0, box.v1, false, imprint});
+  lines_.push_back({box.u0, box.v1, box.u1, box.v1, false, imprint});
+  lines_.push_back({box.u1, box.v1, box.u1, box.v0, false, imprint});
+}
+
+/// Of an edge: the smallest feature that has the facet on its other side.
+FeatureId FacadeRoom::owner(const Line& line) const {
+  if (line.from < 0) return line.imprint;
+  const auto has_edge = [&](const Loop& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      if (loop[i] == line.to && loop[(i + 1) % loop.size()] == line.from) return true;
+    return false;
+  };
+  const auto facet = std::ranges::find_if(solid_->facets, [&](const Facet& other) {
+    return std::ranges::any_of(other.loops, has_edge);
+  });
+  FeatureId owner;
+  if (facet == solid_->facets.end() || facet->polygons.empty()) return owner;
+  std::size_t least = 0;
+  for (int f = 0; f < std::ssize(segmentation_->features); ++f) {
+    const auto& its = segmentation_->features[at(f)].source_polygons;
+    if (!std::ranges::includes(its, facet->polygons)) continue;
+    if (owner.is_valid() && its.size() >= least) continue;
+    owner = {f};
+    least = its.size();
+  }
+  return owner;
+}
+
+std::vector<FeatureId> FacadeRoom::beside(const Extents& box, double distance_m) const {
+  std::set<FeatureId> found;
+  for (const Line& line : lines_) {
+    const Vec3 from{line.u0, line.v0, 0}, to{line.u1, line.v1, 0};
+    if (stands_on(box, line) || distance_of(box, from, to) >= distance_m) continue;
+    if (const FeatureId its = owner(line); its.is_valid()) found.insert(its);
+  }
+  return {found.begin(), found.end()};
 }
 
 bool FacadeRoom::stands_on(const Extents& box, const Line& line) {
@@ -128,15 +151,19 @@ std::vector<int> FacadeRoom::rows_of(const std::vector<Extents>& boxes) const {
 /// Finds where things go: two programmes of separations, that of the rows and that along the wall.
 class FacadeArranger {
  public:
-  FacadeArranger(const std::vector<FacadeRoom::Line>& lines, const std::vector<Movable>& movables,
-                 double gap_m)
-      : lines_(lines), movables_(movables), gap_m_(gap_m) {
+  FacadeArranger(const FacadeRoom& room, const std::vector<Movable>& movables, double gap_m,
+                 Apartness apartness)
+      : room_(room),
+        lines_(room.lines_),
+        movables_(movables),
+        gap_m_(gap_m),
+        keeps_now_(apartness == Apartness::as_now) {
     for (const Movable& one : movables) boxes_.push_back(one.box);
   }
 
   FacadePlaces run() {
     FacadePlaces out;
-    if (!solve(&FacadeArranger::rows, &FacadeArranger::shift_up, out) ||
+    if ((!keeps_now_ && !solve(&FacadeArranger::rows, &FacadeArranger::shift_up, out)) ||
         !solve(&FacadeArranger::places, &FacadeArranger::shift_along, out))
       return out;
     out.places = boxes_;
@@ -157,10 +184,10 @@ class FacadeArranger {
     std::vector<double> wished, weights;
     std::vector<Separation> separations{};
     std::vector<std::vector<std::size_t>> about{};  ///< the rectangles of each separation
-    std::vector<FeatureId> beside{};                ///< and what is fixed
+    std::vector<const FacadeRoom::Line*> beside{};  ///< and what is fixed; or null
   };
   static void add(Programme& into, Separation one, std::vector<std::size_t> about,
-                  FeatureId beside = {}) {
+                  const FacadeRoom::Line* beside = nullptr) {
     into.separations.push_back(one);
     into.about.push_back(std::move(about));
     into.beside.push_back(beside);
@@ -185,22 +212,23 @@ class FacadeArranger {
   struct Bounds {
     bool is_low_yielding = false, is_high_yielding = false;
     double low = -kInfinity, high = kInfinity;
-    FeatureId below{}, above{};
-    Bounds(const Yielding& yielding, int variable)
-        : is_low_yielding(yielding.contains({variable, true})),
-          is_high_yielding(yielding.contains({variable, false})) {}
+    const FacadeRoom::Line* below = nullptr;
+    const FacadeRoom::Line* above = nullptr;
+    Bounds(const Yielding& yielding, int variable, bool keeps_now)
+        : is_low_yielding(keeps_now || yielding.contains({variable, true})),
+          is_high_yielding(keeps_now || yielding.contains({variable, false})) {}
     /// Between something fixed and what is `now` apart from it.
     [[nodiscard]] double distance(bool is_low, double now, double least) const {
       return is_low ? (is_low_yielding ? std::min(least, now) : least)
                     : (is_high_yielding ? std::min(least, now) : least);
     }
-    void take(bool is_low, double bound, FeatureId owner) {
+    void take(bool is_low, double bound, const FacadeRoom::Line& line) {
       if (is_low && bound > low) {
         low = bound;
-        below = owner;
+        below = &line;
       } else if (!is_low && bound < high) {
         high = bound;
-        above = owner;
+        above = &line;
       }
     }
   };
@@ -224,7 +252,7 @@ class FacadeArranger {
     for (std::size_t row = 0; row < members.size(); ++row) {
       out.wished.push_back(0);
       out.weights.push_back(std::max(1.0, static_cast<double>(members[row].size())));
-      Bounds bounds(yielding, static_cast<int>(row));
+      Bounds bounds(yielding, static_cast<int>(row), keeps_now_);
       for (const std::size_t i : members[row]) bound_upwards(boxes_[i], bounds);
       add(out, static_cast<int>(row), members[row], bounds);
     }
@@ -236,8 +264,8 @@ class FacadeArranger {
   void bound_upwards(const Extents& box, Bounds& bounds) const {
     for (const FacadeRoom::Line& line : lines_) {
       if (FacadeRoom::stands_on(box, line)) {
-        bounds.take(true, 0, line.owner);
-        bounds.take(false, 0, line.owner);
+        bounds.take(true, 0, line);
+        bounds.take(false, 0, line);
         continue;
       }
       const Apart its = apart_of(box, line);
@@ -248,7 +276,7 @@ class FacadeArranger {
       const double distance_m = bounds.distance(is_low, now_m, least());
       bounds.take(is_low,
                   is_low ? its.v->second + distance_m - box.v0 : its.v->first - distance_m - box.v1,
-                  line.owner);
+                  line);
     }
   }
 
@@ -278,7 +306,12 @@ class FacadeArranger {
     Programme out;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       out.wished.push_back(middle(along(boxes_[i])));
-      Bounds bounds(yielding, static_cast<int>(i));
+      if (movables_[i].is_fixed) {
+        add(out, {Separation::kFixed, static_cast<int>(i), out.wished[i]}, {i});
+        add(out, {static_cast<int>(i), Separation::kFixed, -out.wished[i]}, {i});
+        continue;
+      }
+      Bounds bounds(yielding, static_cast<int>(i), keeps_now_);
       bound_along(boxes_[i], bounds);
       add(out, static_cast<int>(i), {i}, bounds);
     }
@@ -301,12 +334,19 @@ class FacadeArranger {
       const double distance_m = bounds.distance(is_low, now_m, least());
       bounds.take(is_low,
                   is_low ? its.u->second + distance_m + half : its.u->first - distance_m - half,
-                  line.owner);
+                  line);
     }
   }
 
   [[nodiscard]] bool are_beside(std::size_t i, std::size_t j) const {
-    return apart(up(boxes_[i]), up(boxes_[j])) < near();
+    const double upwards = apart(up(boxes_[i]), up(boxes_[j]));
+    if (upwards >= near()) return false;
+    // Nothing goes up or down: what is one above the other stays so.
+    return !keeps_now_ || upwards < std::max(0.0, apart(along(boxes_[i]), along(boxes_[j])));
+  }
+  [[nodiscard]] double least_between(std::size_t i, std::size_t j) const {
+    if (!keeps_now_ || movables_[i].is_fixed || movables_[j].is_fixed) return least();
+    return std::min(least(), apart(along(boxes_[i]), along(boxes_[j])));
   }
 
   /// What comes next beside it; what has another one between follows from that.
@@ -318,7 +358,7 @@ class FacadeArranger {
       if (!are_beside(i, j)) continue;
       if (std::ranges::any_of(next, [&](std::size_t k) { return are_beside(k, j); })) continue;
       next.push_back(j);
-      const double least_m = least() + (boxes_[i].width() + boxes_[j].width()) / 2;
+      const double least_m = least_between(i, j) + (boxes_[i].width() + boxes_[j].width()) / 2;
       add(out, {static_cast<int>(i), static_cast<int>(j), least_m}, {i, j});
     }
   }
@@ -356,18 +396,20 @@ class FacadeArranger {
         if (low == Separation::kFixed) yielding.emplace(high, true);
         if (high == Separation::kFixed) yielding.emplace(low, false);
       }
-      if (yielding.size() > before) continue;
+      if (yielding.size() > before && !keeps_now_) continue;
       tell_crowded(programme, found, out);
       return false;
     }
   }
 
-  static void tell_crowded(const Programme& programme, const Separated& found, FacadePlaces& out) {
+  void tell_crowded(const Programme& programme, const Separated& found, FacadePlaces& out) const {
     std::set<std::size_t> crowded;
     std::set<FeatureId> beside;
     for (const std::size_t s : found.crowded) {
       crowded.insert(programme.about[s].begin(), programme.about[s].end());
-      if (programme.beside[s].is_valid()) beside.insert(programme.beside[s]);
+      if (programme.beside[s] == nullptr) continue;
+      if (const FeatureId its = room_.owner(*programme.beside[s]); its.is_valid())
+        beside.insert(its);
     }
     out.crowded.assign(crowded.begin(), crowded.end());
     out.beside.assign(beside.begin(), beside.end());
@@ -379,25 +421,40 @@ class FacadeArranger {
     double clear_m = gap_m_;
     for (std::size_t j = 0; j < boxes_.size(); ++j)
       if (j != i) clear_m = std::min(clear_m, distance_of(box, boxes_[j]));
-    const std::array<Vec3, 4> corners{Vec3{box.u0, box.v0, 0}, Vec3{box.u1, box.v0, 0},
-                                      Vec3{box.u1, box.v1, 0}, Vec3{box.u0, box.v1, 0}};
-    for (const FacadeRoom::Line& line : lines_) {
-      if (FacadeRoom::stands_on(box, line)) continue;
-      for (std::size_t c = 0; c < 4; ++c)
-        clear_m = std::min(clear_m, distance({corners.at(c), corners.at((c + 1) % 4)},
-                                             {{line.u0, line.v0, 0}, {line.u1, line.v1, 0}}));
-    }
+    for (const FacadeRoom::Line& line : lines_)
+      if (!FacadeRoom::stands_on(box, line))
+        clear_m = std::min(clear_m, distance_of(box, {line.u0, line.v0, 0}, {line.u1, line.v1, 0}));
     return clear_m >= gap_m_ ? gap_m_ : clear_m - kNoShift_m;
   }
 
+  const FacadeRoom& room_;
   const std::vector<FacadeRoom::Line>& lines_;
   const std::vector<Movable>& movables_;
   double gap_m_;
+  bool keeps_now_;
   std::vector<Extents> boxes_;
 };
 
-FacadePlaces FacadeRoom::arrange(const std::vector<Movable>& movables, double gap_m) const {
-  return FacadeArranger(lines_, movables, gap_m).run();
+FacadePlaces FacadeRoom::arrange(const std::vector<Movable>& movables, double gap_m,
+                                 Apartness apartness) const {
+  return FacadeArranger(*this, movables, gap_m, apartness).run();
+}
+
+bool is_moved(const Extents& now, const Extents& then) {
+  const double most_m = std::max({std::abs(now.u0 - then.u0), std::abs(now.u1 - then.u1),
+                                  std::abs(now.v0 - then.v0), std::abs(now.v1 - then.v1)});
+  return most_m > kNoShift_m;
+}
+
+Placed put_on_facade(const Solid& solid, const Segmentation& segmentation, const Host& host,
+                     const Extents& where, double depth_m, double clear_m, const Feature& feature) {
+  Placed placed;
+  for (const double share : {1.0, 0.5, 0.25, 0.125}) {
+    placed = place_like(solid, segmentation, host, where, depth_m, feature.sense, share * clear_m,
+                        feature);
+    if (placed.solid) break;
+  }
+  return placed;
 }
 
 }  // namespace oriel::detail

@@ -28,6 +28,8 @@ struct Redrawing {
   const Segmentation& segmentation;
   std::vector<Step> steps;
   double scale = 0;
+  /// Of a refusal it is to be told what would let the operator act (Placed::Left::hindrance).
+  bool tells_needs = false;
 
   [[nodiscard]] const Feature& feature(std::size_t member = 0) const {
     return segmentation.features[steps[member].feature.index()];

@@ -129,6 +129,9 @@ class LevelOperations {
       SeriesStep made{task.steps[0], after_.scale, true, task.steps};
       std::vector<FeatureId> members;
       for (const Step& step : task.steps) members.push_back(step.feature);
+      for (const PushedFeature& pushed : after_.generalised.pushed)
+        if (std::ranges::find(task.steps, pushed.by, &Step::feature) != task.steps.end())
+          members.push_back(pushed.feature);
       made.with.assign(members.begin() + 1, members.end());
       add(std::move(made), members);
     }

@@ -12,7 +12,7 @@ const std::vector<OperatorKind>& operator_table() {
         {"gap", "length", "the least distance to neighbours"}}},
       {"collapse", "leaves an outline without depth", {}},
       {"displace",
-       "moves the recesses of a row along their wall until gaps are wide enough",
+       "moves the openings of a wall apart until gaps are wide enough",
        {{"to", "length", "the least width"},
         {"gap", "length", "the least distance to neighbours"}}},
       {"enlarge",

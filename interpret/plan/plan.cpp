@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -120,6 +122,24 @@ Step step_of(const rules::Pack& pack, const GeneraliseEntry& entry, FeatureId fe
   return step;
 }
 
+/// What the pack calls an opening.
+std::vector<FeatureId> openings_of(const rules::Pack& pack, const std::vector<ClassId>& labels) {
+  std::vector<FeatureId> openings;
+  const ClassId opening = rules::index_of(pack.classes, "opening");
+  for (std::size_t row = 0; opening != rules::kNoClass && row < labels.size(); ++row)
+    if (rules::is_within(pack.classes, labels[row], opening))
+      openings.push_back(FeatureId{static_cast<int>(row)});
+  return openings;
+}
+
+/// An opening that is enlarged pushes others aside.
+void add_openings(std::vector<FeatureId> openings, Plan& plan) {
+  const auto shared = std::make_shared<const std::vector<FeatureId>>(std::move(openings));
+  for (Step& step : plan.steps)
+    if (step.operation == "enlarge" && std::ranges::binary_search(*shared, step.feature))
+      step.openings = shared;
+}
+
 }  // namespace
 
 Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
@@ -162,6 +182,7 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
     if (chosen[row] != nullptr)
       result.steps.push_back(step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)},
                                      scale_denominator, interpretation));
+  add_openings(openings_of(pack, labels), result);
   return result;
 }
 

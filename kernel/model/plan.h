@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,9 @@ struct Step {
   std::map<std::string, std::string> words{};
   /// Id of the group of the pack that the entry is for; empty: it is for single features.
   std::string group{};
+  /// The openings of the building, ascending, which steps of a plan share: those that no step is
+  /// for make room for what an operator enlarges. Null: nothing does.
+  std::shared_ptr<const std::vector<FeatureId>> openings{};
 };
 
 /// The decisions for one building at one scale, in feature order; at most one step a feature.

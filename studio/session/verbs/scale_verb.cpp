@@ -116,7 +116,8 @@ class RedrawnWriter {
     const std::string asked = outcome.rule.empty() ? "" : ", as " + outcome.rule + " asks";
     if (outcome.outcome == "omitted") return "left out" + asked;
     if (outcome.outcome == "changed")
-      return fmt::format("changed ({}){}", outcome.operation, asked);
+      return fmt::format("changed ({}){}{}", outcome.operation, asked,
+                         outcome.reason.empty() ? "" : ": " + outcome.reason);
     if (outcome.outcome == "went along") return "gone with what it is on or in";
     if (outcome.outcome == "refused")
       return fmt::format("stays as it is, though {} asks for {}: {}",

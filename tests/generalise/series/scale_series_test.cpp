@@ -9,11 +9,13 @@
 #include "kernel/validate/validate.h"
 #include "tests/generalise/line.h"
 #include "tests/support/generated.h"
+#include "tests/support/shapes.h"
 #include "tests/support/shared.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -129,6 +131,41 @@ TEST_SUITE("generalise") {
       check_both_ways(line, series_of(line));
     }
     CHECK(houses == 76);
+  }
+
+  TEST_CASE("a door that grows in a series takes windows aside and back") {
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {10, 8, 6})
+                                  .remove({4.5, 0, 0}, {5.5, 0.2, 2.2})
+                                  .remove({3.2, 0, 1}, {4.2, 0.2, 2})
+                                  .remove({5.8, 0, 1}, {6.8, 0.2, 2})
+                                  .build());
+    std::vector<FeatureId> openings;
+    for (int i = 0; i < std::ssize(line.segmentation.features); ++i) openings.push_back({i});
+    const auto shared = std::make_shared<const std::vector<FeatureId>>(openings);
+    const PlanAt plan_at = [&](double scale) {
+      Plan plan{scale, {}, {}};
+      for (const FeatureId id : openings) {
+        const bool is_door = line.segmentation.features[id.index()].box.min.z == 0;
+        if (is_door && scale >= 1000)
+          plan.steps.push_back(
+              {id, "enlarge", "door", {{"to", 2}, {"gap", 0.3}}, {{"anchor", "sill"}}, {}, shared});
+        else if (!is_door && scale >= 5000)
+          plan.steps.push_back({id, "omit", "window"});
+      }
+      return plan;
+    };
+    const SeriesInput input = input_of(line);
+    const auto levels = series_levels(input, kSeriesScales, plan_at);
+    REQUIRE(levels.value);
+    const WrittenGrid grid(line.document);
+    const ScaleSeries series =
+        scale_series(input, *levels.value, FiringScales(kSeriesScales, {1000, 5000}, plan_at),
+                     [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
+    check_both_ways(line, series);
+    REQUIRE(series.operations.size() == 3);
+    CHECK(series.operations[0].operation == "enlarge");
+    CHECK(series.operations[0].with.size() == 2);
   }
 
   TEST_CASE("the log and any level make every other level") {
