@@ -120,21 +120,22 @@ namespace oriel {
 
 namespace {
 
-constexpr double kLeastClear_m = 0.001;
+/// So much of a distance is looked at that what lies just at it does not count.
+constexpr double kNearly = 0.999;
 
 using LineSegment = std::pair<Vec3, Vec3>;
 
 class Attacher {
  public:
   Attacher(const Solid& solid, std::vector<FacetId> contacts, const std::vector<Plane>& planes,
-           Attach kind, double clear_m)
-      : solid_(solid),
-        contacts_(std::move(contacts)),
-        kind_(kind),
-        clear_m_(std::max(clear_m, kLeastClear_m)) {
-    for (const FacetId contact : contacts_) {
-      const Plane& plane = solid.planes[facet(contact).plane.index()];
-      planes_.push_back(kind == Attach::raise ? exact::opposite(plane) : plane);
+           Attach kind, const Clearance& clearance)
+      : solid_(solid), contacts_(std::move(contacts)), kind_(kind), clearance_(clearance) {
+    clearance_.least_m = std::max(clearance.least_m, detail::kLeastEdge_m);
+    const Plane& first = plane_of(contacts_[0]);
+    planes_.push_back(kind == Attach::raise ? exact::opposite(first) : first);
+    if (contacts_.size() == 2) {
+      const Plane& second = plane_of(contacts_[1]);
+      planes_.push_back(is_before_second() ? exact::opposite(second) : second);
     }
     planes_.insert(planes_.end(), planes.begin(), planes.end());
   }
@@ -155,7 +156,30 @@ class Attacher {
 
  private:
   [[nodiscard]] const Facet& facet(FacetId id) const { return solid_.facets[id.index()]; }
+  [[nodiscard]] const Plane& plane_of(FacetId id) const {
+    return solid_.planes[facet(id).plane.index()];
+  }
   [[nodiscard]] Vec3 corner(int c) const { return points_[at(c)]; }
+
+  /// The first contact rises in front of the second one (a wall on a slab), not behind it.
+  [[nodiscard]] bool is_before_second() const {
+    double side = 0;
+    for_each_shared_edge([&](int a, int b) {
+      const Vec3 along = solid_.vertices[at(b)].point - solid_.vertices[at(a)].point;
+      side += dot(cross(plane_of(contacts_[0]).normal, along), plane_of(contacts_[1]).normal);
+    });
+    return side > 0;
+  }
+  /// The second contact takes a part of the body's outline in, which it does not have yet.
+  [[nodiscard]] bool gets_tab() const { return is_before_second() == (kind_ == Attach::sink); }
+  template <class Visit>
+  void for_each_shared_edge(Visit visit) const {
+    std::vector<std::pair<int, int>> of_second;
+    for_each_edge(contacts_[1], [&](int a, int b) { of_second.emplace_back(b, a); });
+    for_each_edge(contacts_[0], [&](int a, int b) {
+      if (std::ranges::find(of_second, std::pair{a, b}) != of_second.end()) visit(a, b);
+    });
+  }
 
   const char* why_not() {
     const auto body = detail::convex_body(planes_);
@@ -192,19 +216,18 @@ class Attacher {
       if (is_on_second(p) && is_on_second(q)) notch_ = {p, q};
     }
     if (notch_.first < 0) return false;
-    std::vector<std::pair<int, int>> of_second;
-    for_each_edge(contacts_[1], [&](int a, int b) { of_second.emplace_back(b, a); });
-    const Vec3 p = corner(notch_.first), q = corner(notch_.second);
-    for_each_edge(contacts_[0], [&](int a, int b) {
-      if (std::ranges::find(of_second, std::pair{a, b}) == of_second.end()) return;
+    for_each_shared_edge([&](int a, int b) {
       const Vec3 from = solid_.vertices[at(a)].point, to = solid_.vertices[at(b)].point;
       const Vec3 along = normalised(to - from);
-      const auto fits = [&](Vec3 x) {
-        const double s = dot(x - from, along);
-        return s >= clear_m_ && s <= length(to - from) - clear_m_ &&
-               length(x - from - s * along) < kLeastClear_m;
+      const auto fits = [&](int c) {
+        const double s = dot(corner(c) - from, along);
+        return s >= detail::kLeastEdge_m && s <= length(to - from) - detail::kLeastEdge_m &&
+               length(corner(c) - from - s * along) < detail::kLeastEdge_m;
       };
-      if (fits(p) && fits(q) && dot(q - p, along) > 0) edge_ = {a, b};
+      if (!fits(notch_.first) || !fits(notch_.second)) return;
+      edge_ = {a, b};
+      if (dot(corner(notch_.second) - corner(notch_.first), along) < 0)
+        std::swap(notch_.first, notch_.second);
     });
     return edge_.first >= 0;
   }
@@ -218,7 +241,8 @@ class Attacher {
       for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
   }
 
-  /// The outline lies in the facet and off its edges; where a notch is cut it touches one of them.
+  /// The outline lies in the facet and off its edges; where a notch is cut it touches one of them,
+  /// and a tab lies outside.
   [[nodiscard]] bool is_inside(std::size_t contact) const {
     const Vec3 normal = solid_.planes[facet(contacts_[contact]).plane.index()].normal;
     const auto outlines = detail::outlines_of(solid_.vertices, facet(contacts_[contact]).loops);
@@ -227,13 +251,15 @@ class Attacher {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int p = loop[i], q = loop[(i + 1) % loop.size()];
       if (is_of_notch(p) && is_of_notch(q)) continue;
-      if (!is_of_notch(p) && !detail::contains(outlines, normal, corner(p))) return false;
+      const bool is_outside = contact == 1 && gets_tab();
+      if (!is_of_notch(p) && detail::contains(outlines, normal, corner(p)) == is_outside)
+        return false;
       for_each_edge(contacts_[contact], [&](int a, int b) {
-        const bool is_cut = std::pair{a, b} == edge_ || std::pair{b, a} == edge_;
-        // On the second contact the depth of the body lies between: it is as it is.
-        if (is_cut && (contact == 1 || is_of_notch(p) || is_of_notch(q))) return;
+        // The edge that is cut is the body's own: its height or depth lies between.
+        if (std::pair{a, b} == edge_ || std::pair{b, a} == edge_) return;
         const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
-        is_clear = is_clear && detail::distance({corner(p), corner(q)}, edge) >= clear_m_;
+        is_clear = is_clear && detail::distance({corner(p), corner(q)}, edge) >=
+                                   detail::needed_m(clearance_, edge);
       });
     }
     // A hole of the facet may lie inside the outline.
@@ -246,25 +272,45 @@ class Attacher {
   }
   [[nodiscard]] bool is_of_notch(int c) const { return c == notch_.first || c == notch_.second; }
 
+  /// What lies behind the body's planes, but those of the contacts moved out.
+  [[nodiscard]] std::vector<detail::HalfSpaceM> grown_by(double by_m) const {
+    std::vector<detail::HalfSpaceM> limits;
+    for (std::size_t p = 0; p < planes_.size(); ++p)
+      limits.push_back(
+          {planes_[p].normal, planes_[p].offset_m + (p < contacts_.size() ? 0 : by_m)});
+    return limits;
+  }
+
   /// Another facet has a part in the body grown by the distance, but not beyond the contacts.
   [[nodiscard]] bool meets_others() const {
-    std::vector<detail::HalfSpaceM> limits;
+    const auto limits = grown_by(kNearly * clearance_.least_m);
     Box box;
     for (const Vec3 p : points_) box.grow(p);
-    for (std::size_t p = 0; p < planes_.size(); ++p) {
-      const double grown_m = p < contacts_.size() ? 0 : 0.999 * clear_m_;
-      limits.push_back({planes_[p].normal, planes_[p].offset_m + grown_m});
-    }
-    const double reach_m = 4 * clear_m_;  // corners of sharp bodies grow further than their planes
+    const double reach_m =
+        4 * clearance_.least_m;  // corners of sharp bodies grow further than their planes
     for (int f = 0; f < std::ssize(solid_.facets); ++f) {
       if (std::ranges::find(contacts_, FacetId{f}) != contacts_.end()) continue;
       const Facet& other = solid_.facets[at(f)];
       if (is_far(other, box, reach_m)) continue;
       const Vec3 normal = solid_.planes[other.plane.index()].normal;
-      if (detail::area_within(solid_.vertices, other, normal, limits) > detail::kTouch_m2)
+      if (detail::area_within(solid_.vertices, other, normal, limits) <= detail::kTouch_m2)
+        continue;
+      const double near_m = nearest_before(FacetId{f});
+      if (near_m >= clearance_.least_m ||
+          detail::area_within(solid_.vertices, other, normal, grown_by(kNearly * near_m)) >
+              detail::kTouch_m2)
         return true;
     }
     return false;
+  }
+  /// How near what was there before came to a facet; nothing to spare counts as touching.
+  [[nodiscard]] double nearest_before(FacetId id) const {
+    double near_m = clearance_.least_m;
+    for_each_edge(id, [&](int a, int b) {
+      near_m = std::min(near_m, detail::needed_m(clearance_, {solid_.vertices[at(a)].point,
+                                                              solid_.vertices[at(b)].point}));
+    });
+    return near_m > detail::kLeastEdge_m ? near_m : 0;
   }
 
   [[nodiscard]] bool is_far(const Facet& other, const Box& box, double reach_m) const {
@@ -326,7 +372,7 @@ class Attacher {
   std::vector<FacetId> contacts_;
   std::vector<Plane> planes_;  ///< out of the body, those of the contacts first
   Attach kind_;
-  double clear_m_;
+  Clearance clearance_;
   detail::ConvexBody body_;
   std::vector<Vec3> points_;           ///< of the body's corners
   int first_vertex_ = 0;               ///< of the solid, for the body's corners
@@ -337,8 +383,8 @@ class Attacher {
 }  // namespace
 
 Attached attach(const Solid& solid, const std::vector<FacetId>& contacts,
-                const std::vector<Plane>& planes, Attach kind, double clear_m) {
-  return Attacher(solid, contacts, planes, kind, clear_m).run();
+                const std::vector<Plane>& planes, Attach kind, const Clearance& clearance) {
+  return Attacher(solid, contacts, planes, kind, clearance).run();
 }
 
 Plane plane_through(const Solid& solid, Vec3 direction, Vec3 point, double within_deg) {

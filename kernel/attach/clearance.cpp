@@ -24,6 +24,21 @@ double distance(std::pair<Vec3, Vec3> p, std::pair<Vec3, Vec3> q) {
                    distance_to_segment(q.second, p.first, p.second)});
 }
 
+double nearness(std::span<const Vec3> outline, std::pair<Vec3, Vec3> edge) {
+  double near_m = Box::kInfinity;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    near_m = std::min(near_m, distance({outline[i], outline[(i + 1) % outline.size()]}, edge));
+  return near_m;
+}
+
+double needed_m(const Clearance& clearance, std::pair<Vec3, Vec3> edge) {
+  constexpr double kAsNear_m = kLeastEdge_m / 2;
+  double near_m = clearance.least_m;
+  for (const auto& outline : clearance.before)
+    near_m = std::min(near_m, nearness(outline, edge) - kAsNear_m);
+  return std::max(near_m, kLeastEdge_m);
+}
+
 namespace {
 
 /// The box that the facet passes through, in its own axes.

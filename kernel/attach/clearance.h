@@ -1,9 +1,11 @@
 #pragma once
 
+#include "kernel/attach/attach.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/vec3.h"
 
 #include <map>
+#include <span>
 #include <utility>
 
 namespace oriel::detail {
@@ -13,6 +15,13 @@ inline constexpr double kTouch_m2 = 1e-9;
 
 /// How near two segments come to each other.
 double distance(std::pair<Vec3, Vec3> p, std::pair<Vec3, Vec3> q);
+
+/// How near an outline comes to an edge.
+double nearness(std::span<const Vec3> outline, std::pair<Vec3, Vec3> edge);
+
+/// How near it may come to an edge: what `before` came nearer to it may come as near to, but for
+/// half of what vertices are welded at.
+double needed_m(const Clearance& clearance, std::pair<Vec3, Vec3> edge);
 
 /// Edges of a result are no shorter: what is nearer becomes one vertex when it is read again.
 inline constexpr double kLeastEdge_m = 0.001;

@@ -73,6 +73,57 @@ TEST_SUITE("kernel/attach") {
     CHECK(made.facets.size() == 4);
   }
 
+  TEST_CASE("a door that stands on a slab before its wall has the slab run into it") {
+    const Solid solid =
+        solid_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).add({2, -2, 0}, {8, 0, 3}).build());
+    FacetId wall, slab;
+    for (int f = 0; f < std::ssize(solid.facets); ++f) {
+      const Facet& facet = solid.facets[static_cast<std::size_t>(f)];
+      const Plane& plane = solid.planes[facet.plane.index()];
+      if (plane.normal == kFront && plane.offset_m == 0) wall = {f};
+      if (plane.normal == kUp && plane.offset_m == 3) slab = {f};
+    }
+    const auto door =
+        attach(solid, {wall, slab}, box_planes(solid, {4, 0, 3}, {5, 0.2, 5}, {kFront, kDown}),
+               Attach::sink, 0.1);
+    check_volume(door, 480 + 36 - 0.4);
+    CHECK(door.facets.size() == 4);
+    const auto frame =
+        attach(solid, {wall, slab}, box_planes(solid, {4, -0.1, 3}, {5, 0, 5}, {{0, 1, 0}, kDown}),
+               Attach::raise, 0.1);
+    check_volume(frame, 480 + 36 + 0.2);
+    CHECK(frame.facets.size() == 4);
+  }
+
+  TEST_CASE("a block before a wall on the ground has the ground run under it") {
+    const Solid solid = block();
+    const auto made =
+        attach(solid, {facet_looking(solid, kFront), facet_looking(solid, kDown)},
+               box_planes(solid, {4, -0.1, 0}, {5, 0, 2}, {{0, 1, 0}, kDown}), Attach::raise, 0.3);
+    check_volume(made, 480 + 0.2);
+    CHECK(made.facets.size() == 4);
+  }
+
+  TEST_CASE("a door may be less deep than its distance to other parts") {
+    const Solid solid = block();
+    const auto made =
+        attach(solid, {facet_looking(solid, kFront), facet_looking(solid, kDown)},
+               box_planes(solid, {4, 0, 0}, {5, 0.08, 2}, {kFront, kDown}), Attach::sink, 0.1);
+    check_volume(made, 480 - 0.16);
+  }
+
+  TEST_CASE("what takes a place may come as near to other parts as what was there") {
+    const Solid solid = block();
+    const Clearance as_before(0.1, {{{0.05, 0, 1}, {2, 0, 1}, {2, 0, 2}, {0.05, 0, 2}}});
+    const auto put = [&](Vec3 min, Vec3 max) {
+      return attach(solid, {facet_looking(solid, kFront)}, box_planes(solid, min, max, {kFront}),
+                    Attach::sink, as_before);
+    };
+    check_volume(put({0.05, 0, 1}, {3, 0.2, 2}), 480 - 0.59);
+    CHECK_FALSE(put({0.03, 0, 1}, {3, 0.2, 2}).solid);
+    CHECK_FALSE(put({0.05, 0, 0.05}, {3, 0.2, 2}).solid);
+  }
+
   TEST_CASE("what comes too near to an edge or to another part is refused") {
     const Solid solid = block();
     CHECK_FALSE(window(solid, {0.05, 0, 1}, {3, 0.2, 2}).solid);
