@@ -14,7 +14,7 @@ import gpkg
 import structure
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-STEP = 40  # of the shared data that is looked at by default
+STEP = 80  # of the shared data that is looked at by default
 
 
 class Check:

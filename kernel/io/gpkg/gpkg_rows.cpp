@@ -176,7 +176,7 @@ class RowMaker {
       if (is_new) features.push_back({std::string(id), nullptr, "", {}});
       return features[found->second];
     };
-    if (geometry != nullptr) gather_surfaces(*geometry, feature_for);
+    if (geometry != nullptr) gather_surfaces(*geometry, feature_for, features, 0);
     for (const std::string& child : object.children) {
       const CityObject& installation = record_.objects[number_of_.at(child)];
       if (is_building(installation)) continue;
@@ -188,22 +188,26 @@ class RowMaker {
       if (const CityGeometry* own = leading_geometry(installation)) {
         for_each_city_polygon(
             *own, [&](const CityPolygon& one) { feature.polygons.push_back(&one.rings); });
-        if (!installation.attributes.empty() && member_of(installation.attributes, "oriel_label"))
-          continue;
-        gather_surfaces(*own, feature_for);
+        // One that oriel wrote shares polygons with what is known already.
+        const bool is_ours =
+            !installation.attributes.empty() && member_of(installation.attributes, "oriel_label");
+        gather_surfaces(*own, feature_for, features, is_ours ? features.size() : 0);
       }
     }
     return features;
   }
 
+  /// Features before number `first` have their polygons.
   template <class FeatureFor>
-  static void gather_surfaces(const CityGeometry& geometry, const FeatureFor& feature_for) {
+  static void gather_surfaces(const CityGeometry& geometry, const FeatureFor& feature_for,
+                              const std::vector<GatheredFeature>& features, std::size_t first) {
     for_each_city_polygon(geometry, [&](const CityPolygon& polygon) {
       if (polygon.surface < 0) return;
       const CitySurface& surface = geometry.surfaces[at(polygon.surface)];
       const std::string_view id = member_text(surface.members, "oriel_id");
       if (id.empty()) return;
       GatheredFeature& feature = feature_for(id);
+      if (static_cast<std::size_t>(&feature - features.data()) < first) return;
       if (feature.members == nullptr) {
         feature.members = &surface.members;
         feature.written_as = surface.type;

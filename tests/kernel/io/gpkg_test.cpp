@@ -157,6 +157,21 @@ TEST_SUITE("kernel/io") {
     CHECK(last == first);
   }
 
+  TEST_CASE("a window that only the dormer around it names is a feature, once") {
+    BoxFile box = box_with_features();
+    const std::string dormer = R"("boundaries":[[[0,1,5,4]]])";
+    box.objects.replace(
+        box.objects.find(dormer), dormer.size(),
+        R"("boundaries":[[[0,1,5,4]],[[1,2,6,5]]],"semantics":{"surfaces":[{"type":"Window","oriel_id":"f1","oriel_label":"window"},{"type":"Window","oriel_id":"f3","oriel_label":"window"}],"values":[0,1]})");
+    const TemporaryFolder folder;
+    const OpenedPackage package(package_of(folder, box.text()).path);
+    CHECK(package.ask("SELECT count_window FROM buildings") == "3");
+    CHECK(package.ask("SELECT id FROM features") == "f1 f2 dormer f3");
+    // Polygons of the one that the building has, too, are not there twice.
+    CHECK(package.ask("SELECT length(geom) FROM features WHERE id = 'f1'") ==
+          package.ask("SELECT length(geom) FROM surfaces WHERE feature = 'f1'"));
+  }
+
   TEST_CASE("polygons of fewer than three corners are in no geometry") {
     BoxFile box;
     box.objects =
