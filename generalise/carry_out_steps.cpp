@@ -196,19 +196,17 @@ class StepRunner {
     std::ranges::sort(out.changed);
   }
 
-  void put_back(const detail::PlanTask& task, CarriedOut& out) {
-    if (task.operation == "merge") return merge_in(task, out);
+  void put_back(const detail::PlanTask& planned, CarriedOut& out) {
+    if (planned.operation == "merge") return merge_in(planned, out);
+    detail::PlanTask task = without_failed(planned);
     const auto can_be_put_back = [&](const Step& step) {
-      return !failed_.contains(step.feature) &&
-             std::ranges::binary_search(out.removed, step.feature) && !went_with_another(step, out);
+      return std::ranges::binary_search(out.removed, step.feature) && !went_with_another(step, out);
     };
-    if (detail::takes_some(task.steps[0])) {
-      detail::PlanTask some{task.operation, {}};
-      std::ranges::copy_if(task.steps, std::back_inserter(some.steps), can_be_put_back);
-      if (!some.steps.empty()) redraw(some, out);
-    } else if (std::ranges::all_of(task.steps, can_be_put_back)) {
-      redraw(task, out);
-    }
+    if (detail::takes_some(planned.steps[0]))
+      std::erase_if(task.steps, [&](const Step& step) { return !can_be_put_back(step); });
+    else if (!std::ranges::all_of(task.steps, can_be_put_back))
+      return;
+    if (!task.steps.empty()) redraw(task, out);
   }
 
   /// It went with what carries it.
@@ -231,12 +229,18 @@ class StepRunner {
         validator_.fitness_of(*placed.solid) == Fitness::unfit)
       return fail(task, Code::G403, "the moved facet would meet another part");
     out.solid = std::move(*placed.solid);
-    const std::size_t kept = its.kept(task.steps);
-    for (std::size_t i = 0; i < kept; ++i) {
-      std::erase(out.removed, task.steps[i].feature);
-      out.changed.push_back(task.steps[i].feature);
+    if (placed.stays.empty())
+      for (std::size_t i = 0; i < its.kept(task.steps); ++i) placed.stays.push_back(i);
+    for (const std::size_t member : placed.stays) {
+      std::erase(out.removed, task.steps[member].feature);
+      out.changed.push_back(task.steps[member].feature);
     }
     std::ranges::sort(out.changed);
+  }
+
+  [[nodiscard]] detail::PlanTask without_failed(detail::PlanTask task) const {
+    std::erase_if(task.steps, [&](const Step& step) { return failed_.contains(step.feature); });
+    return task;
   }
 
   const Solid& solid_;

@@ -30,9 +30,9 @@ Vec3 along_a_wall(const Solid& solid) {
   return {1, 0, 0};
 }
 
-/// The facet that looks down behind the lower edge of a wall at the middle of `where`, if that is
-/// where the edge lies.
-std::optional<FacetId> ground_under(const Solid& solid, const Host& host, const Extents& where) {
+/// The level facet at the lower edge of a wall at the middle of `where`, if that is where the edge
+/// lies: the ground behind it, or a floor before it.
+std::optional<FacetId> level_at_foot(const Solid& solid, const Host& host, const Extents& where) {
   const double middle = (where.u0 + where.u1) / 2;
   for (const Loop& loop : solid.facets[host.facet.index()].loops)
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -45,24 +45,10 @@ std::optional<FacetId> ground_under(const Solid& solid, const Host& host, const 
         for (const Loop& other : solid.facets[at(f)].loops)
           for (std::size_t j = 0; j < other.size(); ++j)
             if (other[j] == b && other[(j + 1) % other.size()] == a &&
-                solid.planes[solid.facets[at(f)].plane.index()].normal.z < -0.9)
+                std::abs(solid.planes[solid.facets[at(f)].plane.index()].normal.z) > 0.9)
               return FacetId{f};
     }
   return std::nullopt;
-}
-
-/// Imprints that stay are drawn last: the facet still names their polygons.
-bool meets_imprints(const Solid& solid, const Segmentation& segmentation, const Host& host,
-                    const Extents& where, double clear_m) {
-  const std::vector<int>& its = solid.facets[host.facet.index()].polygons;  // sorted
-  return std::ranges::any_of(segmentation.features, [&](const Feature& other) {
-    if (other.sense != Sense::imprint || other.source_polygons.empty() ||
-        !std::ranges::includes(its, other.source_polygons))
-      return false;
-    const Extents e = extents_of(host, segmentation, other);
-    return e.u0 < where.u1 + clear_m && where.u0 < e.u1 + clear_m && e.v0 < where.v1 + clear_m &&
-           where.v0 < e.v1 + clear_m;
-  });
 }
 
 /// The corners of a rectangle on a host, counter-clockwise.
@@ -73,8 +59,30 @@ std::array<Vec3, 4> corners_of(const Host& host, const Extents& e) {
   return {point(e.u0, e.v0), point(e.u1, e.v0), point(e.u1, e.v1), point(e.u0, e.v1)};
 }
 
+/// How far two rectangles are from each other, in the direction in which that is more.
+double apart(const Extents& one, const Extents& other) {
+  return std::max({one.u0 - other.u1, other.u0 - one.u1, one.v0 - other.v1, other.v0 - one.v1});
+}
+
+/// Imprints that stay are drawn last: the facet still names their polygons.
+bool meets_imprints(const Solid& solid, const Segmentation& segmentation, const Host& host,
+                    const Extents& where, const Clearance& clearance) {
+  const std::vector<int>& its = solid.facets[host.facet.index()].polygons;  // sorted
+  return std::ranges::any_of(segmentation.features, [&](const Feature& other) {
+    if (other.sense != Sense::imprint || other.source_polygons.empty() ||
+        !std::ranges::includes(its, other.source_polygons))
+      return false;
+    const Extents its_extents = extents_of(host, segmentation, other);
+    double needed = clearance.least_m;
+    for (const Outline& outline : clearance.before)
+      needed = std::min(needed, apart(extents_of(host, outline), its_extents) - kOnEdge_m);
+    return apart(its_extents, where) < std::max(needed, 0.0);
+  });
+}
+
 /// A rectangle lies in its facet, off its edges, but for a lower edge that it stands on.
-bool lies_clear(const Solid& solid, const Host& host, const Extents& where, double clear_m) {
+bool lies_clear(const Solid& solid, const Host& host, const Extents& where,
+                const Clearance& clearance) {
   const Facet& facet = solid.facets[host.facet.index()];
   const auto outlines = outlines_of(solid.vertices, facet.loops);
   const auto corners = corners_of(host, where);
@@ -86,9 +94,7 @@ bool lies_clear(const Solid& solid, const Host& host, const Extents& where, doub
       const bool is_foot = std::abs(dot(edge.first, host.v) - where.v0) < kOnEdge_m &&
                            std::abs(dot(edge.second, host.v) - where.v0) < kOnEdge_m;
       if (is_foot) continue;
-      for (std::size_t c = 0; c < corners.size(); ++c)
-        if (distance({corners.at(c), corners.at((c + 1) % corners.size())}, edge) < clear_m)
-          return false;
+      if (nearness(corners, edge) < needed_m(clearance, edge)) return false;
     }
   return true;
 }
@@ -116,11 +122,10 @@ std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point) 
   return std::nullopt;
 }
 
-Extents extents_of(const Host& host, const Segmentation& segmentation, const Feature& feature) {
+Extents extents_of(const Host& host, std::span<const Vec3> points) {
   constexpr double kInf = Box::kInfinity;
   Extents e{kInf, -kInf, kInf, -kInf, kInf, -kInf};
-  for (const int v : feature.vertices) {
-    const Vec3 p = segmentation.vertices[at(v)].point;
+  for (const Vec3 p : points) {
     e.u0 = std::min(e.u0, dot(p, host.u));
     e.u1 = std::max(e.u1, dot(p, host.u));
     e.v0 = std::min(e.v0, dot(p, host.v));
@@ -132,17 +137,23 @@ Extents extents_of(const Host& host, const Segmentation& segmentation, const Fea
   return e;
 }
 
+Extents extents_of(const Host& host, const Segmentation& segmentation, const Feature& feature) {
+  std::vector<Vec3> points;
+  for (const int v : feature.vertices) points.push_back(segmentation.vertices[at(v)].point);
+  return extents_of(host, points);
+}
+
 Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
-             const std::vector<Plane>& planes, Attach kind, double clear_m,
+             const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
              const std::vector<int>& polygons) {
-  Attached made = attach(solid, contacts, planes, kind, clear_m);
+  Attached made = attach(solid, contacts, planes, kind, clearance);
   if (!made.solid) return {std::nullopt, std::move(made.reason), false};
   for (const FacetId facet : made.facets) made.solid->facets[facet.index()].polygons = polygons;
   return {std::move(made.solid), {}, false};
 }
 
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
-                 double clear_m, const std::vector<int>& polygons) {
+                 const Clearance& clearance, const std::vector<int>& polygons) {
   const bool is_wall = std::abs(host.n.z) < kWall;
   const Vec3 up = is_wall ? kUp : host.v;
   const auto point = [&](double u, double v) {
@@ -155,11 +166,10 @@ Placed place_box(const Solid& solid, const Host& host, Extents where, double dep
                             plane(up, where.u0, where.v1)};
   planes.push_back(kind == Attach::sink ? parallel(solid, host.plane, -depth_m, -1)
                                         : parallel(solid, host.plane, depth_m, 1));
-  const auto ground =
-      is_wall && kind == Attach::sink ? ground_under(solid, host, where) : std::nullopt;
-  if (ground) return place(solid, {host.facet, *ground}, planes, kind, clear_m, polygons);
+  const auto foot = is_wall ? level_at_foot(solid, host, where) : std::nullopt;
+  if (foot) return place(solid, {host.facet, *foot}, planes, kind, clearance, polygons);
   planes.push_back(plane(-up, where.u0, where.v0));
-  return place(solid, {host.facet}, planes, kind, clear_m, polygons);
+  return place(solid, {host.facet}, planes, kind, clearance, polygons);
 }
 
 Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,
@@ -189,17 +199,26 @@ Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,
 }
 
 Placed place_like(const Solid& solid, const Segmentation& segmentation, const Host& host,
-                  const Extents& where, double depth_m, Sense sense, double clear_m,
+                  const Extents& where, double depth_m, Sense sense, const Clearance& clearance,
                   const Feature& like) {
-  if (meets_imprints(solid, segmentation, host, where, clear_m))
+  if (meets_imprints(solid, segmentation, host, where, clearance))
     return {std::nullopt, "it would come too near to another part"};
   if (sense != Sense::imprint)
     return place_box(solid, host, where, depth_m,
-                     sense == Sense::hole ? Attach::sink : Attach::raise, clear_m,
+                     sense == Sense::hole ? Attach::sink : Attach::raise, clearance,
                      like.source_polygons);
-  if (!lies_clear(solid, host, where, clear_m))
+  if (!lies_clear(solid, host, where, clearance))
     return {std::nullopt, "its outline does not fit into the facet"};
   return draw_outline(solid, host, where, like);
+}
+
+Clearance clearance_after(const Host& host, double least_m, const std::vector<Extents>& features) {
+  Clearance clearance(least_m);
+  for (const Extents& feature : features) {
+    const auto corners = corners_of(host, feature);
+    clearance.before.emplace_back(corners.begin(), corners.end());
+  }
+  return clearance;
 }
 
 std::optional<double> box_depth(const Host& host, const Feature& feature, const Extents& extents) {

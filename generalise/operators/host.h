@@ -6,7 +6,9 @@
 #include "kernel/model/solid.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,7 @@ struct Extents {
   /// How far it reaches from the plane to either side.
   [[nodiscard]] double depth() const { return std::max(out1, -out0); }
 };
+Extents extents_of(const Host& host, std::span<const Vec3> points);
 Extents extents_of(const Host& host, const Segmentation& segmentation, const Feature& feature);
 
 /// What an operator made: the solid, with the facets that are new and the feature each belongs to;
@@ -43,8 +46,8 @@ struct Placed {
   bool is_needless = false;
   /// Of a refusal: what would let it act.
   Hindrance hindrance{};
-  /// Of an operator for which some members of a task may stay as they are (Operator::takes_some):
-  /// those, each with its own reason. The others are tried again without them.
+  /// Members of a task that may stay as they are, each with its own reason: the others are tried
+  /// again without them.
   struct Left {
     std::size_t member = 0;
     std::string reason;
@@ -52,26 +55,33 @@ struct Placed {
     Hindrance hindrance{};
   };
   std::vector<Left> left{};
+  /// Of a row: the members that are still there, if not the first ones.
+  std::vector<std::size_t> stays{};
 };
 
 /// A recess or a block with the outline u0…u1 × v0…v1 on a host and the given depth; its facets get
-/// `polygons`. Its sides are horizontal and vertical if the host is a wall. A recess whose lower
-/// edge lies on the ground under the wall is open there.
+/// `polygons`. Its sides are horizontal and vertical if the host is a wall. One whose lower edge
+/// lies on the lower edge of the wall stands on what is level there: the ground, which a recess is
+/// open to, or a slab or a plinth before the wall.
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
-                 double clear_m, const std::vector<int>& polygons);
+                 const Clearance& clearance, const std::vector<int>& polygons);
 
 /// Attaches a body and gives its facets `polygons`.
 Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
-             const std::vector<Plane>& planes, Attach kind, double clear_m,
+             const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
              const std::vector<int>& polygons);
 
 /// What takes the place of openings of one kind on their host: sunk in like a hole, put on like a
 /// protrusion, or drawn like an imprint, whose polygons and semantics are those of `like`. Refused
-/// if it would come nearer than `clear_m` to another imprint that stays on the host, or as
+/// if it would come nearer than the clearance to another imprint that stays on the host, or as
 /// place_box says; an outline may end at the lower edge of its wall.
 Placed place_like(const Solid& solid, const Segmentation& segmentation, const Host& host,
-                  const Extents& where, double depth_m, Sense sense, double clear_m,
+                  const Extents& where, double depth_m, Sense sense, const Clearance& clearance,
                   const Feature& like);
+
+/// Keeps `least_m` from all parts but those that features were nearer to, whose extents on their
+/// host these are: they are taken off, and what is drawn takes their place.
+Clearance clearance_after(const Host& host, double least_m, const std::vector<Extents>& features);
 
 /// Draws the rectangle `where` on the host as an imprint that has the polygons of `like`.
 Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,

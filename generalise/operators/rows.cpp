@@ -49,26 +49,150 @@ Sense common_sense(const Redrawing& task) {
   return std::ranges::max(std::array{Sense::hole, Sense::protrusion, Sense::imprint}, {}, count);
 }
 
+/// Growth in eighths of what is wished for.
+constexpr int kParts = 8;
+
+/// A row and what it is on.
+struct Row {
+  const Redrawing& task;
+  const Host& host;
+  std::vector<Extents> members;
+  std::vector<double> depths;  ///< of boxes in their place
+
+  [[nodiscard]] Clearance clearance() const { return clearance_after(host, task.gap_m(), members); }
+};
+
+/// Nothing if a member cannot be redrawn as a box.
+std::optional<Row> row_of(const Redrawing& task, const Host& host) {
+  Row row{task, host, {}, {}};
+  for (std::size_t i = 0; i < task.steps.size(); ++i) {
+    row.members.push_back(extents_of(host, task.segmentation, task.feature(i)));
+    const auto depth_m = box_depth(host, task.feature(i), row.members.back());
+    if (!depth_m) return std::nullopt;
+    row.depths.push_back(*depth_m);
+  }
+  return row;
+}
+
+/// Draws what takes the place of members of a row, on the facet of their wall that its middle is
+/// in: what stands on a wall may divide it.
+Placed put(const Row& row, const Solid& solid, const Extents& where, double depth_m, Sense sense,
+           const Feature& like) {
+  const Host& one = row.host;
+  const Vec3 middle = (where.u0 + where.u1) / 2 * one.u + (where.v0 + where.v1) / 2 * one.v +
+                      one.plane.offset_m * one.n;
+  const auto host = detail::host_at(solid, one.plane, middle);
+  if (!host) return {std::nullopt, "its outline does not fit into the facet"};
+  return place_like(solid, row.task.segmentation, *host, where, depth_m, sense, row.clearance(),
+                    like);
+}
+
 /// `count` copies of a row's mean, `grown` times as large, from its first to its last edge.
-Placed typified(const Redrawing& task, const Host& host, const RowMeans& row, std::size_t count,
-                double grown) {
-  const double width = row.width * grown, height = row.height * grown;
-  const double free_m = row.all.width() - width;
+Placed typified(const Row& row, const RowMeans& means, std::size_t count, double grown) {
+  const double width = means.width * grown, height = means.height * grown;
+  const double free_m = means.all.width() - width;
   if (free_m < 0) return {std::nullopt, "one of those that stay would be wider than the row"};
-  const Sense sense = common_sense(task);
-  Placed placed{task.solid, {}, false};
+  const Sense sense = common_sense(row.task);
+  Placed placed{row.task.solid, {}};
   for (std::size_t i = 0; i < count; ++i) {
     const double part = count == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(count - 1);
-    Extents where = row.all;
+    Extents where = means.all;
     where.u0 += part * free_m;
     where.u1 = where.u0 + width;
-    where.v0 = row.middle - height / 2;
-    where.v1 = row.middle + height / 2;
-    // The facet keeps its number, whatever has been sunk into it.
-    placed = place_like(*placed.solid, task.segmentation, host, where, row.depth, sense,
-                        task.gap_m(), task.feature(i));
+    where.v0 = means.middle - height / 2;
+    where.v1 = means.middle + height / 2;
+    placed = put(row, *placed.solid, where, means.depth, sense, row.task.feature(i));
     if (!placed.solid) return placed;
   }
+  return placed;
+}
+
+/// `count` of a row's members at their own places, as many times as wide and as high.
+Placed thinned_out(const Row& row, std::size_t count, double wider, double higher) {
+  const std::size_t n = row.members.size();
+  Placed placed{row.task.solid, {}};
+  std::vector<std::size_t> stays;
+  for (std::size_t i = 0; i < count; ++i) {
+    // The ends of the row stay; of a single one there is none in the middle of two.
+    const std::size_t member =
+        count == 1 ? (n - 1) / 2 : (2 * i * (n - 1) + count - 1) / (2 * (count - 1));
+    Extents where = row.members[member];
+    const double more_u = where.width() * (wider - 1), more_v = where.height() * (higher - 1);
+    where.u0 -= more_u / 2;
+    where.u1 += more_u / 2;
+    where.v0 -= more_v / 2;
+    where.v1 += more_v / 2;
+    const Feature& feature = row.task.feature(member);
+    placed = put(row, *placed.solid, where, row.depths[member], feature.sense, feature);
+    if (!placed.solid) return placed;
+    stays.push_back(member);
+  }
+  placed.stays = std::move(stays);
+  return placed;
+}
+
+/// The members of a row that stay where something stands between their new places: at their own
+/// ones, growing as far as there is room.
+Placed thinned_out(const Row& row, std::size_t count, double most) {
+  Placed placed;
+  for (int part = kParts; part > 0; --part) {
+    const double grown = 1 + most * part / kParts;
+    for (const auto& [wider, higher] : {std::pair{grown, grown}, {grown, 1.0}, {1.0, grown}}) {
+      placed = thinned_out(row, count, wider, higher);
+      if (placed.solid) return placed;
+    }
+  }
+  return thinned_out(row, count, 1, 1);
+}
+
+/// One strip for the members from the first to before the last.
+Placed strip(const Row& row, const Solid& solid, std::size_t first, std::size_t last) {
+  Extents all = row.members[first];
+  double area_m2 = 0, volume_m3 = 0, middle = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const Extents& one = row.members[i];
+    const double its_m2 = one.width() * one.height();
+    area_m2 += its_m2;
+    volume_m3 += its_m2 * row.depths[i];
+    middle += its_m2 * (one.v0 + one.v1) / 2;
+    all.u0 = std::min(all.u0, one.u0);
+    all.u1 = std::max(all.u1, one.u1);
+  }
+  middle /= area_m2;
+  // A strip lower than the map shows would be refused as too fine.
+  const double height_m =
+      std::max(area_m2 / all.width(), kGapOnMap_m * row.task.scale + detail::kNoShift_m);
+  all.v0 = middle - height_m / 2;
+  all.v1 = middle + height_m / 2;
+  return put(row, solid, all, volume_m3 / area_m2, common_sense(row.task), row.task.feature(first));
+}
+
+/// As few strips as what stands between the members allows; those that are alone between others
+/// are left as they are.
+Placed strips(const Row& row) {
+  const std::size_t n = row.members.size();
+  Placed all = strip(row, row.task.solid, 0, n);
+  if (all.solid || n == 2) return all;
+  Placed placed{row.task.solid, {}};
+  std::vector<std::size_t> stays;
+  std::vector<Placed::Left> left;
+  for (std::size_t first = 0, last = 0; first < n; first = last) {
+    Placed longest;
+    for (last = first + 1; last < n; ++last) {
+      Placed longer = strip(row, *placed.solid, first, last + 1);
+      if (!longer.solid) break;
+      longest = std::move(longer);
+    }
+    if (!longest.solid) {
+      left.push_back({first, "it is alone between other parts", true});
+      continue;
+    }
+    placed = std::move(longest);
+    stays.push_back(first);
+  }
+  if (stays.empty()) return all;
+  if (!left.empty()) return {std::nullopt, left[0].reason, true, {}, left};
+  placed.stays = std::move(stays);
   return placed;
 }
 
@@ -85,28 +209,10 @@ Placed aggregate(const Redrawing& task) {
   if (becomes_block(task.steps[0])) return block(task, *host);
   if (task.steps.size() < 2)
     return {std::nullopt, "it is the only one of its storey and facade", true};
-  Extents all = extents_of(*host, task.segmentation, task.feature());
-  double area_m2 = 0, volume_m3 = 0, middle = 0;
-  for (std::size_t i = 0; i < task.steps.size(); ++i) {
-    const Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    const auto depth_m = box_depth(*host, task.feature(i), one);
-    if (!depth_m)
-      return {std::nullopt, "only recesses, blocks that are boxes and outlines can be aggregated"};
-    const double its_m2 = one.width() * one.height();
-    area_m2 += its_m2;
-    volume_m3 += its_m2 * *depth_m;
-    middle += its_m2 * (one.v0 + one.v1) / 2;
-    all.u0 = std::min(all.u0, one.u0);
-    all.u1 = std::max(all.u1, one.u1);
-  }
-  middle /= area_m2;
-  // A strip lower than the map shows would be refused as too fine.
-  const double height_m =
-      std::max(area_m2 / all.width(), kGapOnMap_m * task.scale + detail::kNoShift_m);
-  all.v0 = middle - height_m / 2;
-  all.v1 = middle + height_m / 2;
-  return place_like(task.solid, task.segmentation, *host, all, volume_m3 / area_m2,
-                    common_sense(task), task.gap_m(), task.feature());
+  const auto row = row_of(task, *host);
+  if (!row)
+    return {std::nullopt, "only recesses, blocks that are boxes and outlines can be aggregated"};
+  return strips(*row);
 }
 
 std::size_t typified_count(std::size_t n, double ratio) {
@@ -119,27 +225,27 @@ Placed typify(const Redrawing& task) {
   if (m >= n) return {std::nullopt, "its row has no more members than are to stay", true};
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall is no longer found"};
-  RowMeans row;
-  row.all = extents_of(*host, task.segmentation, task.feature());
+  const auto row = row_of(task, *host);
+  if (!row)
+    return {std::nullopt, "only recesses, blocks that are boxes and outlines can be typified"};
+  RowMeans means;
+  means.all = row->members[0];
+  const double share = 1 / static_cast<double>(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Extents one = extents_of(*host, task.segmentation, task.feature(i));
-    const auto depth_m = box_depth(*host, task.feature(i), one);
-    if (!depth_m)
-      return {std::nullopt, "only recesses, blocks that are boxes and outlines can be typified"};
-    const double share = 1 / static_cast<double>(n);
-    row.all.u0 = std::min(row.all.u0, one.u0);
-    row.all.u1 = std::max(row.all.u1, one.u1);
-    row.width += share * one.width();
-    row.height += share * one.height();
-    row.middle += share * (one.v0 + one.v1) / 2;
-    row.depth += share * *depth_m;
+    const Extents& one = row->members[i];
+    means.all.u0 = std::min(means.all.u0, one.u0);
+    means.all.u1 = std::max(means.all.u1, one.u1);
+    means.width += share * one.width();
+    means.height += share * one.height();
+    means.middle += share * (one.v0 + one.v1) / 2;
+    means.depth += share * row->depths[i];
   }
   const double most = std::sqrt(static_cast<double>(n) / static_cast<double>(m)) - 1;
-  constexpr int kParts = 8;
-  Placed placed;
-  for (int part = kParts; part >= 0 && !placed.solid; --part)
-    placed = typified(task, *host, row, m, 1 + most * part / kParts);
-  return placed;
+  for (int part = kParts; part >= 0; --part) {
+    Placed placed = typified(*row, means, m, 1 + most * part / kParts);
+    if (placed.solid) return placed;
+  }
+  return thinned_out(*row, m, most);
 }
 
 }  // namespace oriel

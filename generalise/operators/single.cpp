@@ -80,13 +80,14 @@ class RoofTemplate {
 Placed balcony(const Redrawing& task, const Host& host) {
   const Feature& feature = task.feature();
   Extents where = extents_of(host, task.segmentation, feature);
+  const Clearance clearance = clearance_after(host, task.gap_m(), {where});
   const double to_m = task.to_m();
   const double more = std::max(0.0, to_m - where.width());
   where.u0 -= more / 2;
   where.u1 += more / 2;
   const double depth_m = std::max(where.out1, to_m / 2);
   where.v1 = where.v0 + std::min(where.height(), feature.volume_m3 / (where.width() * depth_m));
-  return place_box(task.solid, host, where, depth_m, Attach::raise, task.gap_m(),
+  return place_box(task.solid, host, where, depth_m, Attach::raise, clearance,
                    feature.source_polygons);
 }
 
@@ -137,7 +138,7 @@ Placed enlarge(const Redrawing& task) {
     then.v0 -= is_on_sill ? 0 : v / 2;
     then.v1 += is_on_sill ? v : v / 2;
     return place_like(task.solid, task.segmentation, *host, then, *depth_m, feature.sense,
-                      task.gap_m(), feature);
+                      clearance_after(*host, task.gap_m(), {now}), feature);
   };
   constexpr int kParts = 8;
   Placed placed;

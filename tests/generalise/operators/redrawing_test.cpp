@@ -124,6 +124,74 @@ TEST_SUITE("generalise") {
     CHECK(out.solid.facets.size() == 6 + 2 * 5);
   }
 
+  TEST_CASE("a row with something between its new places is thinned out at its own ones") {
+    // The second of three would stand at 4 m, where there is a pilaster.
+    const Line line = line_of(facade().add({4.2, -0.3, 2.5}, {4.8, 0, 6}).build());
+    const auto is_window = [](const Feature& f) { return f.sense == Sense::hole && is_high(f); };
+    const Plan plan = plan_for(line, step("typify", {{"ratio", 0.75}, {"gap", 0.1}}), is_window);
+    REQUIRE(plan.steps.size() == 4);
+    const auto out = carried(line, plan);
+    CHECK(out.refused.empty());
+    REQUIRE(out.removed.size() == 1);
+    CHECK(line.segmentation.features[out.removed[0].index()].box.min.x == doctest::Approx(3));
+  }
+
+  TEST_CASE("a row that something divides becomes a strip on either side of it") {
+    BoxBody body;
+    body.add({0, 0, 0}, {12, 8, 6}).add({5.2, -0.3, 0}, {5.8, 0, 6});
+    for (const double x : {0.5, 2.0, 3.5, 6.5, 8.0}) body.remove({x, 0, 3.5}, {x + 1, 0.2, 4.5});
+    body.add({9.3, -0.3, 0}, {9.9, 0, 6}).remove({10.5, 0, 3.5}, {11.5, 0.2, 4.5});
+    const Line line = line_of(body.build());
+    const auto is_window = [](const Feature& f) { return f.sense == Sense::hole; };
+    const Plan plan = plan_for(line, step("aggregate", {{"gap", 0.1}}), is_window);
+    REQUIRE(plan.steps.size() == 6);
+    const auto out =
+        generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+    REQUIRE(out.value);
+    CHECK(out.issues.empty());
+    CHECK(out.value->changed.size() == 2);
+    CHECK(out.value->removed.size() == 3);
+    CHECK(volume_m3(out.value->solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
+    std::set<std::string> reasons;
+    for (const FeatureOutcome& one :
+         feature_outcomes(plan, *out.value, line.table(), line.interpretation))
+      if (one.outcome == "kept") reasons.insert(one.reason);
+    CHECK(reasons == std::set<std::string>{"", "it is alone between other parts"});
+  }
+
+  TEST_CASE("a door with a plinth before its wall grows and stands on the plinth") {
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {10, 8, 6})
+                                  .add({0, -0.1, 0}, {10, 0, 0.5})
+                                  .remove({4, 0, 0.5}, {5, 0.2, 2.5})
+                                  .build());
+    const auto is_door = [](const Feature& f) { return f.sense == Sense::hole; };
+    const auto out = carried(
+        line, plan_for(line, step("enlarge", {{"to", 1.5}, {"gap", 0.1}}, {{"anchor", "sill"}}),
+                       is_door));
+    CHECK(out.refused.empty());
+    CHECK(volume_m3(out.solid) ==
+          doctest::Approx(volume_m3(line.solid) - 0.5 * 2 * 0.2).epsilon(1e-6));
+  }
+
+  TEST_CASE("openings that stand before their wall are enlarged and typified as blocks") {
+    BoxBody body;
+    body.add({0, 0, 0}, {10, 8, 6});
+    for (const double x : {1.0, 3.0, 5.0, 7.0}) body.add({x, -0.08, 3.5}, {x + 1, 0, 4.5});
+    const Line line = line_of(body.build());
+    const auto is_frame = [](const Feature& f) { return f.sense == Sense::protrusion; };
+    const auto enlarged =
+        carried(line, plan_for(line, step("enlarge", {{"to", 1.5}, {"gap", 0.1}}), is_frame));
+    CHECK(enlarged.refused.empty());
+    CHECK(enlarged.changed.size() == 4);
+    CHECK(volume_m3(enlarged.solid) == doctest::Approx(480 + 4 * 1.5 * 1.5 * 0.08).epsilon(1e-6));
+    const auto typified =
+        carried(line, plan_for(line, step("typify", {{"ratio", 0.5}, {"gap", 0.1}}), is_frame));
+    CHECK(typified.refused.empty());
+    CHECK(typified.removed.size() == 2);
+    CHECK(volume_m3(typified.solid) == doctest::Approx(480 + 4 * 0.08).epsilon(1e-5));
+  }
+
   TEST_CASE("flush windows are typified and enlarged as outlines") {
     Building building = plain_block();
     for (const double x : {1.0, 3.0, 5.0, 7.0}) add_pane(building, x, 3.5, x + 1, 4.5);
