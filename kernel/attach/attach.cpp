@@ -1,6 +1,7 @@
 #include "kernel/attach/attach.h"
 
 #include "kernel/attach/clearance.h"
+#include "kernel/attach/new_facet.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
@@ -326,27 +327,12 @@ class Attacher {
     for (const Vec3 p : points_) solid.vertices.push_back({p, true});
   }
 
-  static PlaneId plane_id(Solid& solid, const Plane& plane) {
-    for (int p = 0; p < std::ssize(solid.planes); ++p)
-      if (solid.planes[at(p)].coefficients == plane.coefficients &&
-          solid.planes[at(p)].offset == plane.offset)
-        return {p};
-    solid.planes.push_back(plane);
-    return {static_cast<int>(solid.planes.size()) - 1};
-  }
-
   void add_facet(int p, Attached& out) const {
     const Plane plane = kind_ == Attach::raise ? planes_[at(p)] : exact::opposite(planes_[at(p)]);
     Loop loop = body_.loops[at(p)];
     if (kind_ == Attach::sink) std::ranges::reverse(loop);
-    const FacetId id{static_cast<int>(out.solid->facets.size())};
-    out.solid->facets.push_back({plane_id(*out.solid, plane), {of_solid(std::move(loop))}, {}});
-    for (Shell& shell : out.solid->shells)
-      if (std::ranges::find(shell.facets, contacts_[0]) != shell.facets.end()) {
-        shell.facets.push_back(id);
-        break;
-      }
-    out.facets.push_back(id);
+    out.facets.push_back(
+        detail::add_facet(*out.solid, plane, of_solid(std::move(loop)), contacts_[0]));
   }
 
   /// The edge a → b becomes a → p, the outline the long way round, q → b; of the second contact,

@@ -1,0 +1,301 @@
+#include "kernel/attach/raise_across.h"
+
+#include "kernel/attach/clearance.h"
+#include "kernel/attach/foot_line.h"
+#include "kernel/attach/new_facet.h"
+#include "kernel/base/index.h"
+#include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
+#include "kernel/geometry/planar.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace {
+
+using detail::FootPoint;
+
+/// A point of a facet's loop: a vertex of the solid, or where the foot's line enters the facet or
+/// leaves it.
+struct LoopPoint {
+  int vertex = -1;  ///< of the new solid
+  enum class Kind { corner, enters, leaves } kind = Kind::corner;
+  std::size_t of_line = 0;
+};
+
+class AcrossRaiser {
+ public:
+  AcrossRaiser(const Solid& solid, const BlockAcross& block, const Clearance& clearance)
+      : solid_(solid), block_(block), clearance_(clearance) {}
+
+  Attached run() {
+    detail::FootLine line = detail::foot_line(solid_, block_);
+    if (!line.reason.empty()) return refused(line.reason.c_str());
+    line_ = std::move(line.points);
+    if (const char* reason = why_not()) return refused(reason);
+    Attached out;
+    out.solid = solid_;
+    add_vertices(*out.solid);
+    for (const FacetId facet : under_)
+      if (const char* reason = cut_foot_out(facet, *out.solid)) return refused(reason);
+    add_sides(out);
+    if (!is_closed(*out.solid)) return refused("another part stands there");
+    return out;
+  }
+
+ private:
+  static Attached refused(const char* reason) { return {std::nullopt, {}, reason}; }
+
+  [[nodiscard]] const Facet& facet(FacetId id) const { return solid_.facets[id.index()]; }
+  [[nodiscard]] Vec3 point(int v) const { return solid_.vertices[at(v)].point; }
+  [[nodiscard]] const FootPoint& after(std::size_t k) const {
+    return line_[(k + 1) % line_.size()];
+  }
+  /// Between this side and the next one the block has an upright edge, up to its top.
+  [[nodiscard]] bool has_upright_edge(std::size_t side) const {
+    return block_.lid || side + 2 < block_.sides.size();
+  }
+  [[nodiscard]] const Plane& top() const { return block_.lid ? *block_.lid : block_.sides.back(); }
+  [[nodiscard]] bool is_inside(Vec3 p) const {
+    return std::ranges::all_of(block_.sides,
+                               [&](const Plane& side) { return detail::ahead_of(side, p) < 0; });
+  }
+
+  const char* why_not() {
+    for (const FootPoint& here : line_) {
+      under_.insert(here.facet);
+      if (here.is_crossing()) {
+        crossed_.insert(here.edge);
+        crossed_.insert({here.edge.second, here.edge.first});
+      }
+    }
+    if (crossed_.empty()) return "its foot is on one facet";
+    if (draws_short_edge()) return "it would draw an edge that is too short";
+    if (!is_clear_of_edges()) return "its outline does not fit into the facet";
+    if (!find_tops()) return "its top lies below the roof";
+    if (meets_others()) return "it would come too near to another part";
+    return nullptr;
+  }
+
+  [[nodiscard]] bool draws_short_edge() const {
+    const double least_m = std::max(block_.least_edge_m, detail::kLeastEdge_m);
+    for (std::size_t k = 0; k < line_.size(); ++k) {
+      if (length(after(k).point - line_[k].point) < least_m) return true;
+      if (!line_[k].is_crossing()) continue;
+      for (const int v : {line_[k].edge.first, line_[k].edge.second})
+        if (!is_inside(point(v)) && length(line_[k].point - point(v)) < least_m) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_clear_of_edges() const {
+    for (std::size_t k = 0; k < line_.size(); ++k)
+      for (const Loop& loop : facet(line_[k].facet).loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const int a = loop[i], b = loop[(i + 1) % loop.size()];
+          if (crossed_.contains({a, b}) || (is_inside(point(a)) && is_inside(point(b)))) continue;
+          if (detail::distance({line_[k].point, after(k).point}, {point(a), point(b)}) <
+              detail::needed_m(clearance_, {point(a), point(b)}))
+            return false;
+        }
+    return true;
+  }
+
+  /// The upper ends of upright edges; false if the roof reaches through the top.
+  bool find_tops() {
+    for (std::size_t k = 0; k < line_.size(); ++k) {
+      if (!line_[k].is_crossing()) continue;
+      for (const int v : {line_[k].edge.first, line_[k].edge.second})
+        if (is_inside(point(v)) && detail::ahead_of(top(), point(v)) > -detail::kLeastEdge_m)
+          return false;
+    }
+    for (std::size_t i = 0; i < block_.sides.size(); ++i) {
+      if (!has_upright_edge(i)) continue;
+      const auto met =
+          exact::meet(block_.sides[i], block_.sides[(i + 1) % block_.sides.size()], top());
+      if (!met) return false;
+      tops_.push_back(exact::to_metres(*met, solid_.grid_m));
+    }
+    return std::ranges::all_of(line_, [&](const FootPoint& here) {
+      const bool is_on_top =
+          !block_.lid && (detail::ahead_of(top(), here.point) > -detail::kLeastEdge_m);
+      return is_on_top || detail::ahead_of(top(), here.point) < -detail::kLeastEdge_m;
+    });
+  }
+
+  /// The roof rises over each edge that the foot crosses, so the block lies above all its facets.
+  [[nodiscard]] bool is_in_valley() const {
+    for (std::size_t k = 0; k < line_.size(); ++k) {
+      if (!line_[k].is_crossing()) continue;
+      const FacetId from = line_[before(k)].facet;
+      const Plane& plane = solid_.planes[facet(from).plane.index()];
+      if (detail::ahead_of(plane, after(k).point) <= 0) return false;
+    }
+    return true;
+  }
+
+  /// Another facet has a part in the block grown by the clearance. The block lies above one of the
+  /// facets under it, in a valley above all.
+  [[nodiscard]] bool meets_others() const {
+    constexpr double kNearlyAll = 0.999;
+    std::vector<detail::HalfSpaceM> limits;
+    const double grown_m = kNearlyAll * std::max(clearance_.least_m, detail::kLeastEdge_m);
+    for (const Plane& side : block_.sides) limits.push_back({side.normal, side.offset_m + grown_m});
+    if (block_.lid) limits.push_back({block_.lid->normal, block_.lid->offset_m + grown_m});
+    const std::size_t count = limits.size();
+    const bool is_above_all = is_in_valley();
+    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
+      if (under_.contains({f})) continue;
+      const Vec3 normal = solid_.planes[solid_.facets[at(f)].plane.index()].normal;
+      limits.resize(count);
+      for (const FacetId roof : under_) {
+        const Plane& plane = solid_.planes[facet(roof).plane.index()];
+        if (!is_above_all) limits.resize(count);
+        limits.push_back({-plane.normal, -plane.offset_m});
+        if (is_above_all && limits.size() < count + under_.size()) continue;
+        if (detail::area_within(solid_.vertices, solid_.facets[at(f)], normal, limits) >
+            detail::kTouch_m2)
+          return true;
+      }
+    }
+    return false;
+  }
+
+  void add_vertices(Solid& solid) {
+    first_of_line_ = static_cast<int>(solid.vertices.size());
+    for (const FootPoint& here : line_) solid.vertices.push_back({here.point, here.is_meeting});
+    first_top_ = static_cast<int>(solid.vertices.size());
+    for (const Vec3 p : tops_) solid.vertices.push_back({p, true});
+  }
+  [[nodiscard]] int of_line(std::size_t k) const {
+    return first_of_line_ + static_cast<int>(k % line_.size());
+  }
+
+  /// The loops of a facet with the points where the line enters and leaves it.
+  [[nodiscard]] std::vector<LoopPoint> marked(FacetId id, const Loop& loop) const {
+    std::vector<LoopPoint> points;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::pair edge{loop[i], loop[(i + 1) % loop.size()]};
+      points.push_back({edge.first});
+      const std::size_t first = points.size();
+      for (std::size_t k = 0; k < line_.size(); ++k) {
+        if (line_[k].edge == edge)
+          points.push_back({of_line(k), LoopPoint::Kind::leaves, k});
+        else if (line_[k].edge == std::pair{edge.second, edge.first} && line_[k].facet == id)
+          points.push_back({of_line(k), LoopPoint::Kind::enters, k});
+      }
+      std::sort(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
+                [&](const LoopPoint& p, const LoopPoint& q) {
+                  const Vec3 from = point(edge.first);
+                  return length(line_[p.of_line].point - from) <
+                         length(line_[q.of_line].point - from);
+                });
+    }
+    return points;
+  }
+
+  /// What is left of a loop: from where the line enters to where it leaves, and back along it.
+  std::vector<Loop> pieces_of(const std::vector<LoopPoint>& points) const {
+    std::vector<Loop> pieces;
+    std::set<std::size_t> done;
+    const std::size_t n = points.size();
+    for (std::size_t start = 0; start < n; ++start) {
+      if (points[start].kind != LoopPoint::Kind::enters || done.contains(start)) continue;
+      Loop piece;
+      std::size_t i = start;
+      do {
+        done.insert(i);
+        piece.push_back(points[i].vertex);
+        for (i = (i + 1) % n; points[i].kind == LoopPoint::Kind::corner; i = (i + 1) % n)
+          piece.push_back(points[i].vertex);
+        if (points[i].kind != LoopPoint::Kind::leaves) return {};
+        std::size_t k = points[i].of_line;
+        piece.push_back(of_line(k));
+        for (k = before(k); !line_[k].is_crossing(); k = before(k)) piece.push_back(of_line(k));
+        const auto back = std::ranges::find_if(points, [&](const LoopPoint& p) {
+          return p.kind == LoopPoint::Kind::enters && p.of_line == k;
+        });
+        if (back == points.end()) return {};
+        i = static_cast<std::size_t>(back - points.begin());
+      } while (i != start && piece.size() <= 4 * (n + line_.size()));
+      pieces.push_back(std::move(piece));
+    }
+    return pieces;
+  }
+  [[nodiscard]] std::size_t before(std::size_t k) const {
+    return (k + line_.size() - 1) % line_.size();
+  }
+
+  /// Takes the foot out of one of the facets under it, which may fall into pieces.
+  const char* cut_foot_out(FacetId id, Solid& solid) const {
+    const Facet whole = facet(id);
+    for (std::size_t l = 1; l < whole.loops.size(); ++l)
+      if (is_inside(point(whole.loops[l][0]))) return "another part stands there";
+    const std::vector<Loop> pieces = pieces_of(marked(id, whole.loops[0]));
+    if (pieces.empty()) return "its outline does not fit into the facet";
+    std::vector<FacetId> ids{id};
+    const Plane plane = solid_.planes[whole.plane.index()];
+    solid.facets[id.index()].loops = {pieces[0]};
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+      ids.push_back(detail::add_facet(solid, plane, pieces[i], id));
+      solid.facets[ids.back().index()].polygons = whole.polygons;
+    }
+    for (std::size_t l = 1; l < whole.loops.size(); ++l) {
+      const auto around = std::ranges::find_if(ids, [&](FacetId piece) {
+        return detail::contains(
+            detail::outlines_of(solid.vertices, {solid.facets[piece.index()].loops[0]}),
+            plane.normal, point(whole.loops[l][0]));
+      });
+      if (around == ids.end()) return "its outline does not fit into the facet";
+      solid.facets[around->index()].loops.push_back(whole.loops[l]);
+    }
+    return nullptr;
+  }
+
+  /// The sides, each from its foot up to the top, and the lid.
+  void add_sides(Attached& out) const {
+    const std::size_t count = block_.sides.size();
+    std::vector<Loop> loops(count);
+    for (std::size_t k = 0; k < line_.size(); ++k) {
+      const auto side = at(line_[k].side);
+      loops[side].push_back(of_line(k));
+      if (after(k).side != line_[k].side) loops[side].push_back(of_line(k + 1));
+    }
+    Loop lid;
+    for (int t = 0; t < std::ssize(tops_); ++t) lid.push_back(first_top_ + t);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (has_upright_edge(i)) loops[i].push_back(lid[i]);
+      const std::size_t last = (i + count - 1) % count;
+      if (has_upright_edge(last)) loops[i].push_back(lid[last]);
+    }
+    if (!block_.lid) loops.back().insert(loops.back().end(), lid.begin(), lid.end());
+    for (std::size_t i = 0; i < count; ++i)
+      out.facets.push_back(
+          detail::add_facet(*out.solid, block_.sides[i], loops[i], line_[0].facet));
+    if (block_.lid)
+      out.facets.push_back(detail::add_facet(*out.solid, *block_.lid, lid, line_[0].facet));
+  }
+
+  const Solid& solid_;
+  const BlockAcross& block_;
+  const Clearance& clearance_;
+  std::vector<FootPoint> line_;
+  std::set<FacetId> under_;
+  std::set<std::pair<int, int>> crossed_;  ///< either way
+  std::vector<Vec3> tops_;                 ///< by side: of the edge to the next one
+  int first_of_line_ = 0, first_top_ = 0;
+};
+
+}  // namespace
+
+Attached raise_across(const Solid& solid, const BlockAcross& block, const Clearance& clearance) {
+  return AcrossRaiser(solid, block, clearance).run();
+}
+
+}  // namespace oriel
