@@ -99,6 +99,12 @@ bool lies_clear(const Solid& solid, const Host& host, const Extents& where,
   return true;
 }
 
+Placed with_polygons(Attached made, const std::vector<int>& polygons) {
+  if (!made.solid) return {std::nullopt, std::move(made.reason)};
+  for (const FacetId facet : made.facets) made.solid->facets[facet.index()].polygons = polygons;
+  return {std::move(made.solid), {}};
+}
+
 /// A plane parallel to the host's, `out_m` in front of it, that looks out (+1) or in (-1).
 Plane parallel(const Solid& solid, const Plane& plane, double out_m, int sign) {
   const Plane moved = plane_in_front(plane, out_m, solid.grid_m);
@@ -146,10 +152,12 @@ Extents extents_of(const Host& host, const Segmentation& segmentation, const Fea
 Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
              const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
              const std::vector<int>& polygons) {
-  Attached made = attach(solid, contacts, planes, kind, clearance);
-  if (!made.solid) return {std::nullopt, std::move(made.reason), false};
-  for (const FacetId facet : made.facets) made.solid->facets[facet.index()].polygons = polygons;
-  return {std::move(made.solid), {}, false};
+  return with_polygons(attach(solid, contacts, planes, kind, clearance), polygons);
+}
+
+Placed place_across(const Solid& solid, const BlockAcross& block, const Clearance& clearance,
+                    const std::vector<int>& polygons) {
+  return with_polygons(raise_across(solid, block, clearance), polygons);
 }
 
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,

@@ -2,6 +2,7 @@
 
 #include "generalise/needs.h"
 #include "kernel/attach/attach.h"
+#include "kernel/attach/raise_across.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 
@@ -70,6 +71,10 @@ Placed place_box(const Solid& solid, const Host& host, Extents where, double dep
 Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
              const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
              const std::vector<int>& polygons);
+
+/// The same of a block that stands across edges of a roof.
+Placed place_across(const Solid& solid, const BlockAcross& block, const Clearance& clearance,
+                    const std::vector<int>& polygons);
 
 /// What takes the place of openings of one kind on their host: sunk in like a hole, put on like a
 /// protrusion, or drawn like an imprint, whose polygons and semantics are those of `like`. Refused

@@ -95,10 +95,11 @@ detail::Placed enlarge(const Redrawing& task);
 ///    which runs back into the roof;
 ///  - balcony_box: a slab at the wall at the feature's bottom, as wide and as deep as it, with its
 ///    volume.
-/// Precondition: a protrusion whose roof or wall is found again; the template stands on that one
-/// facet alone (not across a ridge). Touches: that facet. New directions: those of the building's
-/// walls, up, and for blocks on a sloping roof the direction of its fall. Inverse: omit, and the
-/// feature's cells, which the segmentation still has.
+/// Precondition: a protrusion whose roof or wall is found again; there is room for the template on
+/// that facet or, on a roof, across its edges. A chimney block that does not fit in its place moves
+/// by no more than half of its sides. Touches: the facets under it. New directions: up; others only
+/// if no wall looks within 45 degrees of where the eaves run or the roof falls: these. Inverse:
+/// omit, and the feature's cells, which the segmentation still has.
 detail::Placed symbolise(const Redrawing& task);
 
 /// The operator `collapse`: a recess, or what sticks out, loses its depth and leaves
@@ -131,8 +132,9 @@ bool becomes_block(const Step& step);
 /// that sits on it takes their place. `{aggregate: {into: strip, gap: LENGTH}}`: the strip is one
 /// recess as wide as all of them together from the first to the last, with the area of all of them
 /// (so it is lower), about the middle of their heights, and with their mean depth. It stands for
-/// the first of them along the wall; the others are gone. Precondition: at least two recesses that
-/// are boxes, of one class, storey and facet; nothing else lies in the strip's way. Touches: the
+/// the first of them along the wall; the others are gone. Where something divides the row there is
+/// a strip on either side of it, and what is alone between others stays as it is. Precondition: at
+/// least two recesses that are boxes, of one class, storey and wall plane. Touches: the
 /// wall's facet. Inverse: omit, and the recesses that the segmentation still has.
 detail::Placed aggregate(const Redrawing& task);
 
@@ -142,9 +144,10 @@ detail::Placed aggregate(const Redrawing& task);
 /// `{typify: {ratio: NUMBER, gap: LENGTH}}`. Of n openings m = n · ratio stay, rounded and at least
 /// one. Each has the mean width and height of the n, times √(n / m): the area and the aspect stay.
 /// They stand at equal distances from the first to the last edge of the row, at the mean height of
-/// its middle. The first m of the row stand for them; the others are gone. Precondition: at least
-/// two recesses that are boxes, of one class, storey and facet, and m < n. Touches: the wall's
-/// facet. Inverse: omit, and the recesses that the segmentation still has.
+/// its middle. The first m of the row stand for them; the others are gone. Where something stands
+/// in the way, m of the row stay at their own places, the ends among them, and grow as far as there
+/// is room. Precondition: at least two recesses that are boxes, of one class, storey and wall plane,
+/// and m < n. Touches: the wall's facet. Inverse: omit, and the recesses that the segmentation still has.
 detail::Placed typify(const Redrawing& task);
 
 /// How many of n stay.

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace oriel {
 
@@ -17,27 +20,74 @@ constexpr Vec3 kUp{0, 0, 1};
 /// Roofs flatter than this (sine, 3 degrees) have no fall.
 constexpr double kFlat = 0.05;
 
+/// The way in which an upright plane looks that is no more than 45 degrees off a direction, the
+/// nearest one; the direction if there is none.
+Vec3 upright_like(const Solid& solid, Vec3 direction) {
+  constexpr double kUpright = 0.02;
+  double best = std::numbers::sqrt2 / 2;
+  Vec3 like = direction;
+  for (const Plane& plane : solid.planes) {
+    const double along = dot(plane.normal, direction);
+    if (std::abs(plane.normal.z) > kUpright || std::abs(along) <= best) continue;
+    best = std::abs(along);
+    like = along > 0 ? plane.normal : -plane.normal;
+  }
+  return like;
+}
+
+/// The shortest edge of the facets that one solid has more than the other.
+double shortest_new_edge(const Solid& before, const Solid& after) {
+  double shortest = Box::kInfinity;
+  for (std::size_t f = before.facets.size(); f < after.facets.size(); ++f)
+    for (const Loop& loop : after.facets[f].loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const auto point = [&](std::size_t k) {
+          return after.vertices[static_cast<std::size_t>(loop[k % loop.size()])].point;
+        };
+        shortest = std::min(shortest, length(point(i + 1) - point(i)));
+      }
+  return shortest;
+}
+
 /// An upright box around some of the feature, in the plan of its roof: u along the eaves, `fall`
-/// down the slope.
+/// down the slope, both as walls look, if there are such: so a block has no direction of its own.
 class RoofTemplate {
  public:
-  RoofTemplate(const Redrawing& task, const Host& host) : task_(task), host_(host) {
-    fall_ = normalised(cross(host.u, kUp));
-    if (dot(fall_, host.n) < 0) fall_ = -fall_;
+  RoofTemplate(const Redrawing& task, const Host& host)
+      : task_(task), host_(host), u_axis_(upright_like(task.solid, host.u)) {
+    Vec3 fall = normalised(cross(host.u, kUp));
+    if (dot(fall, host.n) < 0) fall = -fall;
+    fall_ = upright_like(task.solid, fall);
+    constexpr double kSkewed = 0.5;
+    if (std::abs(dot(fall_, u_axis_)) > kSkewed) {
+      u_axis_ = host.u;
+      fall_ = fall;
+    }
     for (const int v : task.feature().vertices) {
       const Vec3 p = task.segmentation.vertices[static_cast<std::size_t>(v)].point;
-      u_.push_back(dot(p, host.u));
+      u_.push_back(dot(p, u_axis_));
       f_.push_back(dot(p, fall_));
       top_m_ = std::max(top_m_, p.z);
     }
   }
 
+  /// At its place, or where that is not possible next to it: over no more than half of its side.
   Placed chimney() const {
     const double to_m = task_.to_m();
-    const auto [u0, u1] = widened(u_, to_m);
-    const auto [f0, f1] = widened(f_, to_m);
-    return placed(
-        {side(-host_.u, u0), side(host_.u, u1), side(-fall_, f0), side(fall_, f1), top()});
+    const auto u = widened(u_, to_m), f = widened(f_, to_m);
+    Placed first;
+    for (const auto& [along, down] : shifts()) {
+      const double by_u = along * (u.second - u.first) / kShiftParts;
+      const double by_f = down * (f.second - f.first) / kShiftParts;
+      Placed placed = block({side(u_axis_, u.first + by_u, -1), side(fall_, f.second + by_f),
+                             side(u_axis_, u.second + by_u), side(fall_, f.first + by_f, -1)},
+                            top());
+      if (placed.solid && shortest_new_edge(task_.solid, *placed.solid) >= least_edge_m())
+        return placed;
+      const bool is_better = placed.solid && !first.solid;
+      if (is_better || (first.reason.empty() && !first.solid)) first = std::move(placed);
+    }
+    return first;
   }
 
   Placed dormer() const {
@@ -46,7 +96,7 @@ class RoofTemplate {
     const double to_m = task_.to_m();
     const auto [u0, u1] = widened(u_, to_m);
     const double front = *std::ranges::max_element(f_);
-    return placed({side(-host_.u, u0), side(host_.u, u1), side(fall_, front), top()});
+    return block({side(u_axis_, u0, -1), side(fall_, front), side(u_axis_, u1), top()}, {});
   }
 
  private:
@@ -55,23 +105,48 @@ class RoofTemplate {
     const double middle = (low + high) / 2, half = std::max(high - low, least) / 2;
     return {middle - half, middle + half};
   }
-  [[nodiscard]] Plane side(Vec3 direction, double along) const {
-    // `along` counts along u or the fall, whichever way the side looks.
-    const double sign = dot(direction, host_.u) + dot(direction, fall_) > 0 ? 1 : -1;
-    return plane_through(task_.solid, direction, sign * along * direction,
-                         detail::kSameDirection_deg);
+  /// A side at that place along u or the fall; with a sign of -1 it looks back.
+  [[nodiscard]] Plane side(Vec3 axis, double along, double sign = 1) const {
+    return plane_through(task_.solid, sign * axis, along * axis, detail::kSameDirection_deg);
   }
   [[nodiscard]] Plane top() const {
     return plane_through(task_.solid, kUp, {0, 0, top_m_}, detail::kSameDirection_deg);
   }
-  [[nodiscard]] Placed placed(const std::vector<Plane>& planes) const {
-    return detail::place(task_.solid, {host_.facet}, planes, Attach::raise, task_.gap_m(),
-                         task_.feature().source_polygons);
+  /// Steps along the eaves and down the slope, the shortest ways first.
+  static std::vector<std::pair<int, int>> shifts() {
+    std::vector<std::pair<int, int>> all;
+    for (int along = -kShiftParts / 2; along <= kShiftParts / 2; ++along)
+      for (int down = -kShiftParts / 2; down <= kShiftParts / 2; ++down)
+        all.emplace_back(along, down);
+    std::ranges::stable_sort(all, {}, [](const std::pair<int, int>& shift) {
+      return shift.first * shift.first + shift.second * shift.second;
+    });
+    return all;
   }
+
+  /// What is shorter is not seen on the map.
+  [[nodiscard]] double least_edge_m() const { return kGapOnMap_m * task_.scale; }
+
+  /// On its facet, or across the edges of the roof; sides in turn, as raise_across() takes them.
+  [[nodiscard]] Placed block(std::vector<Plane> sides, const std::optional<Plane>& lid) const {
+    const Clearance clearance(task_.gap_m());
+    const std::vector<int>& polygons = task_.feature().source_polygons;
+    std::vector<Plane> planes = sides;
+    if (lid) planes.push_back(*lid);
+    Placed on_one =
+        detail::place(task_.solid, {host_.facet}, planes, Attach::raise, clearance, polygons);
+    if (on_one.solid) return on_one;
+    // Counter-clockwise seen from above, whichever way the fall of a flat roof goes.
+    if (cross(sides[1].normal, sides[0].normal).z > 0) std::swap(sides[0], sides[2]);
+    return detail::place_across(task_.solid, {std::move(sides), lid, least_edge_m()}, clearance,
+                                polygons);
+  }
+
+  static constexpr int kShiftParts = 8;
 
   const Redrawing& task_;
   const Host& host_;
-  Vec3 fall_;
+  Vec3 u_axis_, fall_;
   std::vector<double> u_, f_;
   double top_m_ = -Box::kInfinity;
 };

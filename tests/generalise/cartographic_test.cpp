@@ -27,10 +27,12 @@ struct Redraft {
   Generalised generalised;
 };
 
-Redraft redraft(const Line& line, double scale, double least_edge_m = 0) {
+Redraft redraft(const Line& line, double scale, double least_edge_m = 0,
+                const std::string& without = {}) {
   const auto& [table, graph, issues] = line.description;
   Interpretation labels = interpret(cartographic(), table, graph);
   Plan asked = plan(cartographic(), table, graph, labels, scale);
+  std::erase_if(asked.steps, [&](const Step& step) { return step.operation == without; });
   Invariants invariants;
   invariants.least_edge_m = least_edge_m;
   invariants.validator.fitness_of = [](const Solid& solid) {
@@ -150,9 +152,17 @@ TEST_SUITE("generalise") {
     CHECK(made.refused.size() == 3);
   }
 
-  TEST_CASE("a chimney across a ridge keeps what it stands on") {
+  TEST_CASE("a chimney across a ridge becomes a block across it") {
     const Line line = line_of_sample("house");
-    const Redraft made = redraft(line, 2500);
+    const Generalised made = redraft(line, 2500, 2500 * kGapOnMap_m).generalised;
+    REQUIRE(line.features("chimney").size() == 1);
+    CHECK(std::ranges::binary_search(made.changed, line.features("chimney")[0]));
+    CHECK(new_undersides(made.solid) == 0);
+  }
+
+  TEST_CASE("a chimney that stays across a ridge keeps what it stands on") {
+    const Line line = line_of_sample("house");
+    const Redraft made = redraft(line, 2500, 0, "symbolise");
     CHECK(new_undersides(made.generalised.solid) == 0);
     const auto is_carried = [](const CarriedOut::Refused& refused) {
       return refused.code == Code::G411 && refused.reason.starts_with("what stands on it");

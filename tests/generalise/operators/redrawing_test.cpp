@@ -4,7 +4,9 @@
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/support/flush.h"
+#include "tests/support/houses.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solidified.h"
 
 #include <algorithm>
 #include <cmath>
@@ -276,6 +278,35 @@ TEST_SUITE("generalise") {
         plan_for(line, step("symbolise", {{"to", 0.5}}, {{"with", "balcony_box"}}), is_balcony));
     CHECK(balcony.refused.empty());
     CHECK(volume_m3(balcony.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
+  }
+
+  TEST_CASE("a chimney on a ridge becomes a block across it") {
+    const Line line = line_of(ridge_chimney());
+    const auto is_chimney = [](const Feature& f) {
+      return f.sense == Sense::protrusion && !f.parent.is_valid() && f.box.max.z > 10;
+    };
+    const Plan plan =
+        plan_for(line, step("symbolise", {{"to", 1}, {"gap", 0.1}}, {{"with", "chimney_block"}}),
+                 is_chimney);
+    const auto out = carried(line, plan);
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 1);
+    // Over y 3.5 to 4.5 the roof is 8.8125 m high on the average.
+    CHECK(volume_m3(out.solid) ==
+          doctest::Approx(volume_m3(solid_of(gabled_house())) + 11 - 8.8125).epsilon(1e-6));
+    CHECK(out.solid.facets.size() == line.solid.facets.size());
+  }
+
+  TEST_CASE("a chimney too near to a ridge for its block has it beside or across the ridge") {
+    const Line line =
+        line_of(ConvexBody().add(gable()).add(box({5, 3.2, 5}, {5.6, 3.7, 11})).build());
+    const auto is_chimney = [](const Feature& f) { return f.box.max.z > 10; };
+    const auto out = carried(
+        line,
+        plan_for(line, step("symbolise", {{"to", 1}, {"gap", 0.1}}, {{"with", "chimney_block"}}),
+                 is_chimney));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 1);
   }
 
   TEST_CASE("a slab and its parapet become one block") {
