@@ -81,12 +81,7 @@ class StepRunner {
 
   /// Takes everything off and puts back what operators leave; what fails is not tried again.
   CarriedOut attempt() {
-    Plan off{plan_.scale, {}, {}};
-    for (const Step& step : plan_.steps) {
-      if (failed_.contains(step.feature) || step.operation == "merge") continue;
-      off.steps.push_back(step);
-      off.steps.back().operation = "omit";
-    }
+    Plan off = everything_off();
     const std::vector<detail::Push> pushes = add_pushed(off);
     Remainder remainder = omit(solid_, segmentation_, off, options_, validator_);
     CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
@@ -94,8 +89,8 @@ class StepRunner {
     for (const Refusal& refusal : remainder.refused)
       if (is_pushed(refusal.feature, pushes))
         unpushed_.insert(refusal.feature);
-      else if (!failed_.contains(refusal.feature))
-        out.refused.push_back({refusal.feature, refusal.code, refusal.reason});
+      else
+        keep_refusal(refusal, out);
     // What others make room for comes first, and then they.
     const auto pushes_others = [&](const detail::PlanTask& task) {
       return std::ranges::any_of(pushes, [&](const detail::Push& push) {
@@ -108,6 +103,32 @@ class StepRunner {
     for (const detail::PlanTask& task : tasks_)
       if (!pushes_others(task)) put_back(task, out);
     return out;
+  }
+
+  /// Takes off what has a step and what goes along with it.
+  [[nodiscard]] Plan everything_off() const {
+    std::map<FeatureId, Step> steps;
+    for (const Step& step : plan_.steps) {
+      if (failed_.contains(step.feature) || step.operation == "merge") continue;
+      for (const FeatureId id : step.with) steps.try_emplace(id, Step{id, "omit", step.rule});
+      steps.insert_or_assign(step.feature, step);
+    }
+    Plan off{plan_.scale, {}, {}};
+    for (auto& [id, step] : steps) {
+      step.operation = "omit";
+      off.steps.push_back(std::move(step));
+    }
+    return off;
+  }
+
+  /// Of what goes along with another nothing is told: it stays.
+  void keep_refusal(const Refusal& refusal, CarriedOut& out) {
+    const auto step = std::ranges::find(plan_.steps, refusal.feature, &Step::feature);
+    if (step == plan_.steps.end() || failed_.contains(refusal.feature)) return;
+    if (step->with.empty())
+      out.refused.push_back({refusal.feature, refusal.code, refusal.reason});
+    else
+      fail({step->operation, {*step}}, refusal.code, refusal.reason);  // nothing goes along
   }
 
   static bool is_pushed(FeatureId id, const std::vector<detail::Push>& pushes) {
@@ -130,8 +151,10 @@ class StepRunner {
     });
     if (pushing.empty()) return {};
     std::vector<FeatureId> excluded(unpushed_.begin(), unpushed_.end());
-    for (const Step& step : plan_.steps)
+    for (const Step& step : plan_.steps) {
       if (!is_kept(step.feature)) excluded.push_back(step.feature);
+      excluded.insert(excluded.end(), step.with.begin(), step.with.end());
+    }
     std::ranges::sort(excluded);
     auto pushes = detail::pushes_of(segmentation_, pushing, plan_.scale, excluded);
     for (const detail::Push& push : pushes)

@@ -129,6 +129,7 @@ class LevelOperations {
       SeriesStep made{task.steps[0], after_.scale, true, task.steps};
       std::vector<FeatureId> members;
       for (const Step& step : task.steps) members.push_back(step.feature);
+      add_along(task.steps, members);
       for (const PushedFeature& pushed : after_.generalised.pushed)
         if (std::ranges::find(task.steps, pushed.by, &Step::feature) != task.steps.end())
           members.push_back(pushed.feature);
@@ -137,9 +138,24 @@ class LevelOperations {
     }
     // From the outside in: what is in something that goes, goes with it.
     for (const Step& step : after_.steps)
-      if (step.operation == "omit" && is_new(step) && carrier(step.feature) < 0)
-        add({step, firing_.of(step, before_.scale, after_.scale), false, {step}}, {step.feature});
+      if (step.operation == "omit" && is_new(step) && carrier(step.feature) < 0) {
+        std::vector<FeatureId> members{step.feature};
+        add_along({step}, members);
+        SeriesStep made{step, firing_.of(step, before_.scale, after_.scale), false, {step}};
+        made.with.assign(members.begin() + 1, members.end());
+        add(std::move(made), members);
+      }
     join_nested();
+  }
+
+  /// Adds what goes away with the features of these steps.
+  void add_along(const std::vector<Step>& steps, std::vector<FeatureId>& members) const {
+    for (const Step& step : steps)
+      for (const FeatureId id : step.with)
+        if (was_there(id) && !step_of_.contains(id) &&
+            std::ranges::binary_search(after_.generalised.removed, id) &&
+            std::ranges::find(members, id) == members.end())
+          members.push_back(id);
   }
 
   /// Features may come before what carries them; those have got an operation of their own.

@@ -3,6 +3,7 @@
 #include "generalise/tasks.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <span>
@@ -17,6 +18,13 @@ namespace {
 bool is_same(const Step& a, const Step& b) {
   return a.operation == b.operation && a.rule == b.rule && a.numbers == b.numbers &&
          a.words == b.words && a.group == b.group;
+}
+
+/// What went along with a feature stays gone when it gets another step.
+void add_along(Step& step, const Step& before) {
+  std::vector<FeatureId> along;
+  std::ranges::set_union(step.with, before.with, std::back_inserter(along));
+  step.with = std::move(along);
 }
 
 /// Arguments that depend on the map are those of its scale from now on.
@@ -75,7 +83,10 @@ class Levels {
           found == steps.end()
               ? std::ranges::binary_search(before.generalised.removed, step.feature)
               : found->second.operation == "omit" || bound.contains(step.feature);
-      if (!is_gone) steps.insert_or_assign(step.feature, fixed(step, scale));
+      if (is_gone) continue;
+      Step next = fixed(step, scale);
+      if (found != steps.end()) add_along(next, found->second);
+      steps.insert_or_assign(step.feature, std::move(next));
     }
     return steps;
   }

@@ -31,6 +31,8 @@ Reads find_reads(const Pack& pack) {
   keep_each_once(reads.texts);
   keep_each_once(reads.numbers);
   for (const GroupKind& kind : pack.groups) reads.relations[at(kind.by)] = true;
+  for (const GeneraliseEntry& entry : pack.entries)
+    if (entry.with >= 0) reads.relations[at(entry.with)] = true;
   for (const int relation : evidence_relations(pack)) reads.relations[at(relation)] = true;
   // A relation follows the one that it narrows.
   for (std::size_t i = pack.relations.size(); i-- > 0;)

@@ -216,6 +216,10 @@ struct GeneraliseEntry {
     std::string word;
   };
   std::vector<Argument> arguments;
+  /// What goes along with a feature that leaves its place: the number of a relation that leads to
+  /// it, or -1; and its class, kNoClass: what has no label.
+  int with = -1;
+  ClassId with_of = kNoClass;
   SourceSpan span;
 };
 

@@ -151,6 +151,7 @@ class PackPageWriter {
   void write_surfaces();
   void write_generalise();
   std::string operation(const YamlNode& node);
+  static std::string along(const YamlNode& entry);
   void write_settings();
 
   const YamlNode* tree_;
@@ -370,6 +371,15 @@ std::string PackPageWriter::operation(const YamlNode& node) {
   return text;
 }
 
+/// ", together with what `decor` leads to and has no label".
+std::string PackPageWriter::along(const YamlNode& entry) {
+  const YamlNode* with = value_of(entry, "with");
+  if (with == nullptr) return {};
+  const std::string of = scalar_at(*with, "of");
+  return fmt::format(", together with what `{}` leads to and {}", scalar_at(*with, "by"),
+                     of.empty() ? "has no label" : "is " + with_article(of));
+}
+
 void PackPageWriter::write_generalise() {
   const YamlNode* entries = section("generalise", "Generalisation");
   if (entries == nullptr) return;
@@ -384,7 +394,8 @@ void PackPageWriter::write_generalise() {
     const YamlNode* when = value_of(entry, "when");
     line("- **{}** ({}): {}{}: {}", scalar_at(entry, "id"),
          scales_in_words(scalar_at(entry, "scale")), what,
-         when == nullptr ? "" : " if " + condition(*when), operation(*value_of(entry, "do")));
+         when == nullptr ? "" : " if " + condition(*when),
+         operation(*value_of(entry, "do")) + along(entry));
   }
   page_ += '\n';
   for (const auto& [name, meaning] : operations_) line("`{}` {}.  ", name, meaning);

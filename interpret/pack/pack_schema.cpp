@@ -383,7 +383,17 @@ constexpr const char* kSchema = R"json({
         },
         "for": {"type": "string", "description": "a class, any, or group NAME"},
         "when": {"type": "string", "description": "a condition that must also be true"},
-        "do": {"$ref": "#/definitions/operation", "description": "the operator, with its arguments"}
+        "do": {"$ref": "#/definitions/operation", "description": "the operator, with its arguments"},
+        "with": {
+          "type": "object",
+          "required": ["by"],
+          "additionalProperties": false,
+          "properties": {
+            "by": {"type": "string", "description": "the relation that leads to what goes along"},
+            "of": {"type": "string", "description": "its class (what has no label)"}
+          },
+          "description": "what goes away with a feature that is redrawn or removed"
+        }
       },
       "defaultSnippets": [
         {

@@ -140,6 +140,31 @@ void add_openings(std::vector<FeatureId> openings, Plan& plan) {
       step.openings = shared;
 }
 
+/// What goes along with a feature: where the relation of its entry leads to what has no step of its
+/// own, or only one that removes it.
+std::vector<FeatureId> going_along(const rules::EvaluationContext& context,
+                                   const std::vector<ClassId>& labels,
+                                   const std::vector<const GeneraliseEntry*>& chosen, int row) {
+  const GeneraliseEntry& entry = *chosen[static_cast<std::size_t>(row)];
+  std::vector<FeatureId> along;
+  if (entry.with < 0) return along;
+  const rules::Links& links = context.relations[static_cast<std::size_t>(entry.with)];
+  const auto [begin, end] = links.range_of(row);
+  for (std::size_t link = begin; link < end; ++link) {
+    if (links.other(link) == row) continue;
+    const auto other = static_cast<std::size_t>(links.other(link));
+    const bool is_meant =
+        entry.with_of == rules::kNoClass
+            ? labels[other] == rules::kNoClass
+            : context.membership[static_cast<std::size_t>(entry.with_of)][other] == Truth::yes;
+    if (is_meant && links.is_other(row, link) == Truth::yes &&
+        (chosen[other] == nullptr || chosen[other]->operation == "omit"))
+      along.push_back(FeatureId{links.other(link)});
+  }
+  std::ranges::sort(along);
+  return along;
+}
+
 }  // namespace
 
 Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
@@ -151,7 +176,7 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   rules::EvaluationContext context(pack, table, graph);
   context.scale = scale_denominator;
   const bool needs_classes = std::ranges::any_of(pack.entries, [&](const GeneraliseEntry& e) {
-    return is_asking_for_class(pack.code, e.when);
+    return e.with_of != rules::kNoClass || is_asking_for_class(pack.code, e.when);
   });
   if (needs_classes) set_membership(pack, labels, context);
 
@@ -179,9 +204,11 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   Plan result;
   result.scale = scale_denominator;
   for (std::size_t row = 0; row < chosen.size(); ++row)
-    if (chosen[row] != nullptr)
+    if (chosen[row] != nullptr) {
       result.steps.push_back(step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)},
                                      scale_denominator, interpretation));
+      result.steps.back().with = going_along(context, labels, chosen, static_cast<int>(row));
+    }
   add_openings(openings_of(pack, labels), result);
   return result;
 }

@@ -63,6 +63,9 @@ struct Step {
   /// The openings of the building, ascending, which steps of a plan share: those that no step is
   /// for make room for what an operator enlarges. Null: nothing does.
   std::shared_ptr<const std::vector<FeatureId>> openings{};
+  /// What goes along if the feature leaves its place, without a step of its own but `omit`.
+  /// Ascending.
+  std::vector<FeatureId> with{};
 };
 
 /// The decisions for one building at one scale, in feature order; at most one step a feature.

@@ -80,6 +80,8 @@ constexpr std::array kValuePlaces = {
     PlacePattern{"generalise.#.for", YamlPlace::target},
     PlacePattern{"generalise.#.when", YamlPlace::map_condition},
     PlacePattern{"generalise.#.do.*.*", YamlPlace::map_constant},
+    PlacePattern{"generalise.#.with.by", YamlPlace::relation},
+    PlacePattern{"generalise.#.with.of", YamlPlace::class_name},
     PlacePattern{"fixtures.*.defaults.*", YamlPlace::constant},
     PlacePattern{"fixtures.*.features.*.*", YamlPlace::constant},
     PlacePattern{"tests.#.given", YamlPlace::fixture_name},

@@ -127,6 +127,18 @@ void read_target(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   loader.findings.error(Code::R253, node.span, "unknown group '" + name + "'" + advice);
 }
 
+/// `{by: decor}`, or `{by: decor, of: sill}`.
+void read_with(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
+  YamlSection section(node, "'with'", {"by", "of"}, loader.findings);
+  if (!section.is_map()) return;
+  if (const YamlNode* by = section.require("by")) {
+    entry.with = read_relation(*by, "'by'", loader);
+    loader.names.used_relations.insert(entry.with);
+  }
+  if (const YamlNode* of = section.find("of"))
+    entry.with_of = read_class(*of, "the class after 'of'", loader);
+}
+
 void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::string>& ids,
                    Loader& loader) {
   const auto id = read_text(node, "an entry's id", loader.findings);
@@ -142,7 +154,7 @@ void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::s
 
 void read_entry(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
   YamlSection section(node, name_with_id(node, "entry", "an entry"),
-                      {"id", "scale", "for", "when", "do"}, loader.findings);
+                      {"id", "scale", "for", "when", "do", "with"}, loader.findings);
   if (!section.is_map()) return;
   GeneraliseEntry entry;
   entry.span = node.span;
@@ -153,6 +165,7 @@ void read_entry(const YamlNode& node, std::set<std::string>& ids, Loader& loader
   if (const YamlNode* when = section.find("when")) entry.when = read_condition(*when, loader);
   loader.checker.speak_of_group(false);
   if (const YamlNode* operation = section.require("do")) read_operation(*operation, entry, loader);
+  if (const YamlNode* with = section.find("with")) read_with(*with, entry, loader);
   loader.pack.entries.push_back(std::move(entry));
 }
 

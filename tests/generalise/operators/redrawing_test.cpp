@@ -176,6 +176,40 @@ TEST_SUITE("generalise") {
           doctest::Approx(volume_m3(line.solid) - 0.5 * 2 * 0.2).epsilon(1e-6));
   }
 
+  TEST_CASE("the sill of a window goes along when the window grows, and stays when it is refused") {
+    BoxBody body;
+    body.add({0, 0, 0}, {10, 8, 6}).add({3.9, -0.1, 3.4}, {5.1, 0, 3.5});
+    const Line line = line_of(body.remove({4, 0, 3.5}, {5, 0.2, 4.5}).build());
+    const auto find = [&](Sense sense) {
+      const auto found = std::ranges::find(line.segmentation.features, sense, &Feature::sense);
+      return FeatureId{static_cast<int>(found - line.segmentation.features.begin())};
+    };
+    const FeatureId sill = find(Sense::protrusion), window = find(Sense::hole);
+    Plan plan{1000, {step("enlarge", {{"to", 2}, {"gap", 0.1}})}, {}};
+    plan.steps[0].feature = window;
+    plan.steps[0].with = {sill};
+    const auto out = carried(line, plan);
+    CHECK(out.refused.empty());
+    CHECK(out.changed == std::vector{window});
+    CHECK(out.removed == std::vector{sill});
+    CHECK(volume_m3(out.solid) == doctest::Approx(480 - 2 * 2 * 0.2).epsilon(1e-6));
+    for (const FeatureOutcome& one : feature_outcomes(plan, out, line.table(), line.interpretation))
+      CHECK(one.outcome == (one.feature == line.table().id(sill) ? "went along" : "changed"));
+
+    plan.steps[0].numbers["gap"] = 9;
+    const auto refused = carried(line, plan);
+    CHECK(refused.refused.size() == 1);
+    CHECK(refused.removed.empty());
+    CHECK(volume_m3(refused.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-9));
+
+    plan.steps[0] = step("omit");
+    plan.steps[0].feature = window;
+    plan.steps[0].with = {sill};
+    const auto omitted = carried(line, plan);
+    CHECK(omitted.removed.size() == 2);
+    CHECK(omitted.solid.facets.size() == 6);
+  }
+
   TEST_CASE("openings that stand before their wall are enlarged and typified as blocks") {
     BoxBody body;
     body.add({0, 0, 0}, {10, 8, 6});

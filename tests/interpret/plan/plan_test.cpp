@@ -63,6 +63,32 @@ TEST_SUITE("interpret") {
     CHECK(steps(entries, window_door_and_wall(), 1000) == Steps{"0:first", "1:second"});
   }
 
+  TEST_CASE("what goes along has no label, or is of the class asked for, and no step of its own") {
+    Scene scene;
+    scene.add({{"sense", "hole"}, {"a", 1.4}});        // a window
+    scene.add({{"sense", "protrusion"}, {"a", 0.9}});  // an opening by its shape, without a label
+    scene.add({{"sense", "protrusion"}, {"a", 2.5}});
+    scene.add({{"sense", "imprint"}, {"a", 2.1}});  // a door
+    for (const int other : {1, 2, 3}) scene.relate("beside", FeatureId{0}, FeatureId{other});
+    const auto along = [&](const std::string& with, const std::string& more = {}) {
+      const RuleBase base = load(
+          pack_with(kRules + "generalise:\n  - {id: w, scale: \"1:100 ..\", for: window, do: " +
+                    "{enlarge: {to: 2 m}}, with: " + with + "}\n" + more));
+      const FeatureTable table = scene.table();
+      const FeatureGraph graph = scene.graph();
+      return plan(base, table, graph, interpret(base, table, graph), 1000).steps.at(0).with;
+    };
+    using Ids = std::vector<FeatureId>;
+    CHECK(along("{by: beside}") == Ids{{1}, {2}});
+    CHECK(along("{by: beside, of: opening}") == Ids{{1}});
+    CHECK(along("{by: beside, of: door}") == Ids{{3}});
+    CHECK(along("{by: beside, of: door}",
+                "  - {id: d, scale: \"1:100 ..\", for: door, do: omit}\n") == Ids{{3}});
+    CHECK(along("{by: beside, of: door}",
+                "  - {id: d, scale: \"1:100 ..\", for: door, do: collapse}\n")
+              .empty());
+  }
+
   TEST_CASE("a millimetre on the map grows with the scale") {
     const std::string entries =
         "  - {id: small, scale: \"1:100 ..\", for: any, when: a < 0.5 mm@map, do: omit}\n";
