@@ -105,6 +105,23 @@ Placed with_polygons(Attached made, const std::vector<int>& polygons) {
   return {std::move(made.solid), {}};
 }
 
+/// The way in which the upper side of a box in a roof looks: as planes of the building along the
+/// eaves, one of which looks back, the nearest to up the slope; up the slope if there are none.
+Vec3 up_the_roof(const Solid& solid, const Host& host) {
+  constexpr double kAcross = 0.01, kSteepest = 0.5;
+  double best = kSteepest;
+  Vec3 up = host.v;
+  for (const Plane& plane : solid.planes) {
+    const double along = dot(plane.normal, host.v);
+    if (std::abs(dot(plane.normal, host.u)) > kAcross || std::abs(along) <= best) continue;
+    const auto back = exact::opposite(plane).coefficients;
+    if (std::ranges::find(solid.planes, back, &Plane::coefficients) == solid.planes.end()) continue;
+    best = std::abs(along);
+    up = along > 0 ? plane.normal : -plane.normal;
+  }
+  return up;
+}
+
 /// A plane parallel to the host's, `out_m` in front of it, that looks out (+1) or in (-1).
 Plane parallel(const Solid& solid, const Plane& plane, double out_m, int sign) {
   const Plane moved = plane_in_front(plane, out_m, solid.grid_m);
@@ -163,7 +180,7 @@ Placed place_across(const Solid& solid, const BlockAcross& block, const Clearanc
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
                  const Clearance& clearance, const std::vector<int>& polygons) {
   const bool is_wall = std::abs(host.n.z) < kWall;
-  const Vec3 up = is_wall ? kUp : host.v;
+  const Vec3 up = is_wall ? kUp : up_the_roof(solid, host);
   const auto point = [&](double u, double v) {
     return u * host.u + v * host.v + host.plane.offset_m * host.n;
   };

@@ -9,7 +9,9 @@
 #include "tests/support/solidified.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -341,6 +343,29 @@ TEST_SUITE("generalise") {
                  is_chimney));
     CHECK(out.refused.empty());
     CHECK(out.changed.size() == 1);
+  }
+
+  TEST_CASE("roof windows with upright reveals are typified without a new direction") {
+    ConvexBody body;
+    body.add(gable());
+    for (const double x : {1.0, 4.0, 7.0, 10.0})
+      body.remove({{{-1, 0, 0}, -x},
+                   {{1, 0, 0}, x + 0.8},
+                   {{0, -1, 0}, -1},
+                   {{0, 1, 0}, 2},
+                   {{0, 3, -4}, -23.8}});
+    const Line line = line_of(body.build());
+    const auto is_window = [](const Feature& f) { return f.sense == Sense::hole; };
+    const auto out =
+        carried(line, plan_for(line, step("typify", {{"ratio", 0.5}, {"gap", 0.1}}), is_window));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 2);
+    std::set<std::array<std::int64_t, 3>> before, after;
+    for (const Facet& facet : line.solid.facets)
+      before.insert(line.solid.planes[facet.plane.index()].coefficients);
+    for (const Facet& facet : out.solid.facets)
+      after.insert(out.solid.planes[facet.plane.index()].coefficients);
+    CHECK(std::ranges::includes(before, after));
   }
 
   TEST_CASE("a slab and its parapet become one block") {
