@@ -22,7 +22,7 @@ constexpr double kSameWay_deg = 15;
 /// Two slopes one over the other make a mansard from this difference on.
 constexpr double kBreak_deg = 15;
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDegreeOfSlope = std::numbers::pi / 180;
 
 struct RoofFace {
   FacetId facet;
@@ -77,7 +77,8 @@ bool has_valley(const Solid& solid, const std::vector<RoofFace>& faces) {
     const Vec3 b = solid.planes[solid.facets[other->second.index()].plane.index()].normal;
     const Vec3 along = solid.vertices[at(edge.second)].point - solid.vertices[at(edge.first)].point;
     // The interior of a facet is to the left of its edges.
-    if (dot(cross(a, b), along) < 0 && dot(a, b) < std::cos(kSameWay_deg * kDegree)) return true;
+    if (dot(cross(a, b), along) < 0 && dot(a, b) < std::cos(kSameWay_deg * kDegreeOfSlope))
+      return true;
   }
   return false;
 }
@@ -115,8 +116,8 @@ RoofForm roof_form_of(const Solid& solid, const std::vector<FacetId>& roof) {
     const Facet& facet = solid.facets[id.index()];
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     RoofFace face{id, area_m2(solid.vertices, facet, normal)};
-    face.slope_deg = std::acos(std::clamp(normal.z, -1.0, 1.0)) / kDegree;
-    face.azimuth_deg = std::atan2(normal.x, normal.y) / kDegree;
+    face.slope_deg = std::acos(std::clamp(normal.z, -1.0, 1.0)) / kDegreeOfSlope;
+    face.azimuth_deg = std::atan2(normal.x, normal.y) / kDegreeOfSlope;
     if (face.azimuth_deg < 0) face.azimuth_deg += 360;
     all_m2 += face.area_m2;
     if (face.slope_deg <= kFlat_deg)
