@@ -59,7 +59,7 @@ class StepRunner {
   void fail(const detail::PlanTask& task, const detail::Placed& placed) {
     const auto code_of = [](bool is_needless) { return is_needless ? Code::none : Code::G403; };
     if (placed.left.empty()) return fail(task, code_of(placed.is_needless), placed.reason);
-    for (const detail::Placed::Left& one : placed.left)
+    for (const detail::Placed::LeftMember& one : placed.left)
       fail(task.steps[one.member], code_of(one.is_needless), one.reason);
   }
 
@@ -71,7 +71,7 @@ class StepRunner {
   }
   void keep_hindrance(const detail::PlanTask& task, const Operator& its, const Redrawing& asked,
                       const detail::Placed& placed) const {
-    for (const detail::Placed::Left& one : placed.left)
+    for (const detail::Placed::LeftMember& one : placed.left)
       if (!one.is_needless)
         validator_.hindrances->try_emplace(task.steps[one.member].feature, one.hindrance);
     if (!placed.left.empty() || placed.is_needless) return;
@@ -176,7 +176,8 @@ class StepRunner {
     if (some.empty()) return;
     detail::Placed placed =
         detail::push_aside({out.solid, segmentation_, some, plan_.scale}, push.by);
-    for (const detail::Placed::Left& one : placed.left) unpushed_.insert(some[one.member].feature);
+    for (const detail::Placed::LeftMember& one : placed.left)
+      unpushed_.insert(some[one.member].feature);
     if (!placed.solid) return;
     out.solid = std::move(*placed.solid);
     for (const Step& step : some) {

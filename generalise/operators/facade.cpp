@@ -22,10 +22,10 @@ constexpr double kInfinity = Box::kInfinity;
 constexpr double kOnFoot_m = 0.002;
 
 /// From and to.
-using Range = std::pair<double, double>;
+using AxisRange = std::pair<double, double>;
 
 /// The part of the line from (x0, y0) to (x1, y1) with y inside a band: its x.
-std::optional<Range> within(double x0, double y0, double x1, double y1, Range band) {
+std::optional<AxisRange> within(double x0, double y0, double x1, double y1, AxisRange band) {
   if (y0 > y1) {
     std::swap(x0, x1);
     std::swap(y0, y1);
@@ -37,11 +37,11 @@ std::optional<Range> within(double x0, double y0, double x1, double y1, Range ba
 }
 
 /// How far two ranges are apart; below 0 they overlap.
-double apart(Range a, Range b) { return std::max(a.first - b.second, b.first - a.second); }
-double middle(Range a) { return (a.first + a.second) / 2; }
-Range grown(Range a, double by) { return {a.first - by, a.second + by}; }
-Range along(const Extents& box) { return {box.u0, box.u1}; }
-Range up(const Extents& box) { return {box.v0, box.v1}; }
+double apart(AxisRange a, AxisRange b) { return std::max(a.first - b.second, b.first - a.second); }
+double middle(AxisRange a) { return (a.first + a.second) / 2; }
+AxisRange grown(AxisRange a, double by) { return {a.first - by, a.second + by}; }
+AxisRange along(const Extents& box) { return {box.u0, box.u1}; }
+AxisRange up(const Extents& box) { return {box.v0, box.v1}; }
 
 /// How far two rectangles are apart.
 double distance_of(const Extents& a, const Extents& b) {
@@ -88,7 +88,7 @@ void FacadeRoom::add_outline(const Extents& box, FeatureId imprint) {
 }
 
 /// Of an edge: the smallest feature that has the facet on its other side.
-FeatureId FacadeRoom::owner(const Line& line) const {
+FeatureId FacadeRoom::owner(const FacadeLine& line) const {
   if (line.from < 0) return line.imprint;
   const auto has_edge = [&](const Loop& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i)
@@ -113,7 +113,7 @@ FeatureId FacadeRoom::owner(const Line& line) const {
 
 std::vector<FeatureId> FacadeRoom::beside(const Extents& box, double distance_m) const {
   std::set<FeatureId> found;
-  for (const Line& line : lines_) {
+  for (const FacadeLine& line : lines_) {
     const Vec3 from{line.u0, line.v0, 0}, to{line.u1, line.v1, 0};
     if (stands_on(box, line) || distance_of(box, from, to) >= distance_m) continue;
     if (const FeatureId its = owner(line); its.is_valid()) found.insert(its);
@@ -121,7 +121,7 @@ std::vector<FeatureId> FacadeRoom::beside(const Extents& box, double distance_m)
   return {found.begin(), found.end()};
 }
 
-bool FacadeRoom::stands_on(const Extents& box, const Line& line) {
+bool FacadeRoom::stands_on(const Extents& box, const FacadeLine& line) {
   return line.is_foot && std::abs(line.v0 - box.v0) < kOnFoot_m &&
          apart({line.u0, line.u1}, along(box)) < 0;
 }
@@ -130,20 +130,20 @@ std::vector<int> FacadeRoom::rows_of(const std::vector<Extents>& boxes) const {
   std::vector<std::size_t> order(boxes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return boxes[i].v0; });
-  std::vector<Range> first;  // of each row
+  std::vector<AxisRange> first;  // of each row
   std::vector<int> rows(boxes.size(), 0);
   for (const std::size_t i : order) {
-    const bool is_on_foot =
-        std::ranges::any_of(lines_, [&](const Line& line) { return stands_on(boxes[i], line); });
-    const Range mine = up(boxes[i]);
-    const auto found = std::ranges::find_if(first, [&](Range its) {
+    const bool is_on_foot = std::ranges::any_of(
+        lines_, [&](const FacadeLine& line) { return stands_on(boxes[i], line); });
+    const AxisRange mine = up(boxes[i]);
+    const auto found = std::ranges::find_if(first, [&](AxisRange its) {
       const double common = std::min(mine.second, its.second) - std::max(mine.first, its.first);
       return !is_on_foot &&
              common >= 0.5 * std::min(mine.second - mine.first, its.second - its.first);
     });
     rows[i] = static_cast<int>(found - first.begin());
     // Nothing joins what stands on the foot.
-    if (found == first.end()) first.push_back(is_on_foot ? Range{kInfinity, kInfinity} : mine);
+    if (found == first.end()) first.push_back(is_on_foot ? AxisRange{kInfinity, kInfinity} : mine);
   }
   return rows;
 }
@@ -183,11 +183,11 @@ class FacadeArranger {
   struct Programme {
     std::vector<double> wished, weights;
     std::vector<Separation> separations{};
-    std::vector<std::vector<std::size_t>> about{};  ///< the rectangles of each separation
-    std::vector<const FacadeRoom::Line*> beside{};  ///< and what is fixed; or null
+    std::vector<std::vector<std::size_t>> about{};        ///< the rectangles of each separation
+    std::vector<const FacadeRoom::FacadeLine*> beside{};  ///< and what is fixed; or null
   };
   static void add(Programme& into, Separation one, std::vector<std::size_t> about,
-                  const FacadeRoom::Line* beside = nullptr) {
+                  const FacadeRoom::FacadeLine* beside = nullptr) {
     into.separations.push_back(one);
     into.about.push_back(std::move(about));
     into.beside.push_back(beside);
@@ -196,11 +196,11 @@ class FacadeArranger {
   /// How a rectangle and a line are apart along the wall and upwards, as far as they are near in
   /// the other direction.
   struct Apart {
-    std::optional<Range> u, v;  ///< of the line
+    std::optional<AxisRange> u, v;  ///< of the line
     double along = -kInfinity, up = kInfinity;
     [[nodiscard]] bool is_upwards() const { return v && up >= along; }
   };
-  [[nodiscard]] Apart apart_of(const Extents& box, const FacadeRoom::Line& line) const {
+  [[nodiscard]] Apart apart_of(const Extents& box, const FacadeRoom::FacadeLine& line) const {
     Apart out;
     out.u = within(line.u0, line.v0, line.u1, line.v1, grown(detail::up(box), near()));
     out.v = within(line.v0, line.u0, line.v1, line.u1, grown(detail::along(box), near()));
@@ -212,8 +212,8 @@ class FacadeArranger {
   struct Bounds {
     bool is_low_yielding = false, is_high_yielding = false;
     double low = -kInfinity, high = kInfinity;
-    const FacadeRoom::Line* below = nullptr;
-    const FacadeRoom::Line* above = nullptr;
+    const FacadeRoom::FacadeLine* below = nullptr;
+    const FacadeRoom::FacadeLine* above = nullptr;
     Bounds(const Yielding& yielding, int variable, bool keeps_now)
         : is_low_yielding(keeps_now || yielding.contains({variable, true})),
           is_high_yielding(keeps_now || yielding.contains({variable, false})) {}
@@ -222,7 +222,7 @@ class FacadeArranger {
       return is_low ? (is_low_yielding ? std::min(least, now) : least)
                     : (is_high_yielding ? std::min(least, now) : least);
     }
-    void take(bool is_low, double bound, const FacadeRoom::Line& line) {
+    void take(bool is_low, double bound, const FacadeRoom::FacadeLine& line) {
       if (is_low && bound > low) {
         low = bound;
         below = &line;
@@ -262,7 +262,7 @@ class FacadeArranger {
 
   /// A line keeps off what is on its own side: the facet lies to its left.
   void bound_upwards(const Extents& box, Bounds& bounds) const {
-    for (const FacadeRoom::Line& line : lines_) {
+    for (const FacadeRoom::FacadeLine& line : lines_) {
       if (FacadeRoom::stands_on(box, line)) {
         bounds.take(true, 0, line);
         bounds.take(false, 0, line);
@@ -324,7 +324,7 @@ class FacadeArranger {
 
   void bound_along(const Extents& box, Bounds& bounds) const {
     const double half = box.width() / 2;
-    for (const FacadeRoom::Line& line : lines_) {
+    for (const FacadeRoom::FacadeLine& line : lines_) {
       if (FacadeRoom::stands_on(box, line)) continue;
       const Apart its = apart_of(box, line);
       if (!its.u || its.is_upwards()) continue;
@@ -421,14 +421,14 @@ class FacadeArranger {
     double clear_m = gap_m_;
     for (std::size_t j = 0; j < boxes_.size(); ++j)
       if (j != i) clear_m = std::min(clear_m, distance_of(box, boxes_[j]));
-    for (const FacadeRoom::Line& line : lines_)
+    for (const FacadeRoom::FacadeLine& line : lines_)
       if (!FacadeRoom::stands_on(box, line))
         clear_m = std::min(clear_m, distance_of(box, {line.u0, line.v0, 0}, {line.u1, line.v1, 0}));
     return clear_m >= gap_m_ ? gap_m_ : clear_m - kNoShift_m;
   }
 
   const FacadeRoom& room_;
-  const std::vector<FacadeRoom::Line>& lines_;
+  const std::vector<FacadeRoom::FacadeLine>& lines_;
   const std::vector<Movable>& movables_;
   double gap_m_;
   bool keeps_now_;

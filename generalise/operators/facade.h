@@ -72,21 +72,21 @@ class FacadeRoom {
                                      Apartness apartness = Apartness::gap) const;
 
  private:
-  struct Line {
+  struct FacadeLine {
     double u0, v0, u1, v1;   ///< from and to; the facet lies to its left
     bool is_foot = false;    ///< something may stand on it
     FeatureId imprint{};     ///< whose outline it is
     int from = -1, to = -1;  ///< vertices of the solid, of an edge
   };
   friend class FacadeArranger;
-  [[nodiscard]] static bool stands_on(const Extents& box, const Line& line);
+  [[nodiscard]] static bool stands_on(const Extents& box, const FacadeLine& line);
   void add_outline(const Extents& box, FeatureId imprint);
   /// The feature that the line belongs to, or an invalid one: the body.
-  [[nodiscard]] FeatureId owner(const Line& line) const;
+  [[nodiscard]] FeatureId owner(const FacadeLine& line) const;
 
   const Solid* solid_ = nullptr;
   const Segmentation* segmentation_ = nullptr;
-  std::vector<Line> lines_;
+  std::vector<FacadeLine> lines_;
 };
 
 }  // namespace oriel::detail

@@ -49,13 +49,13 @@ struct Placed {
   Hindrance hindrance{};
   /// Members of a task that may stay as they are, each with its own reason: the others are tried
   /// again without them.
-  struct Left {
+  struct LeftMember {
     std::size_t member = 0;
     std::string reason;
     bool is_needless = false;
     Hindrance hindrance{};
   };
-  std::vector<Left> left{};
+  std::vector<LeftMember> left{};
   /// Of a row: the members that are still there, if not the first ones.
   std::vector<std::size_t> stays{};
 };

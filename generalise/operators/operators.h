@@ -28,7 +28,7 @@ struct Redrawing {
   const Segmentation& segmentation;
   std::vector<Step> steps;
   double scale = 0;
-  /// Of a refusal it is to be told what would let the operator act (Placed::Left::hindrance).
+  /// Of a refusal it is to be told what would let the operator act (Placed::LeftMember::hindrance).
   bool tells_needs = false;
 
   [[nodiscard]] const Feature& feature(std::size_t member = 0) const {
@@ -146,8 +146,9 @@ detail::Placed aggregate(const Redrawing& task);
 /// They stand at equal distances from the first to the last edge of the row, at the mean height of
 /// its middle. The first m of the row stand for them; the others are gone. Where something stands
 /// in the way, m of the row stay at their own places, the ends among them, and grow as far as there
-/// is room. Precondition: at least two recesses that are boxes, of one class, storey and wall plane,
-/// and m < n. Touches: the wall's facet. Inverse: omit, and the recesses that the segmentation still has.
+/// is room. Precondition: at least two recesses that are boxes, of one class, storey and wall
+/// plane, and m < n. Touches: the wall's facet. Inverse: omit, and the recesses that the
+/// segmentation still has.
 detail::Placed typify(const Redrawing& task);
 
 /// How many of n stay.

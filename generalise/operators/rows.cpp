@@ -175,7 +175,7 @@ Placed strips(const Row& row) {
   if (all.solid || n == 2) return all;
   Placed placed{row.task.solid, {}};
   std::vector<std::size_t> stays;
-  std::vector<Placed::Left> left;
+  std::vector<Placed::LeftMember> left;
   for (std::size_t first = 0, last = 0; first < n; first = last) {
     Placed longest;
     for (last = first + 1; last < n; ++last) {
