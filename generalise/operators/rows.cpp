@@ -53,7 +53,7 @@ Sense common_sense(const Redrawing& task) {
 constexpr int kParts = 8;
 
 /// A row and what it is on.
-struct Row {
+struct MemberRow {
   const Redrawing& task;
   const Host& host;
   std::vector<Extents> members;
@@ -63,8 +63,8 @@ struct Row {
 };
 
 /// Nothing if a member cannot be redrawn as a box.
-std::optional<Row> row_of(const Redrawing& task, const Host& host) {
-  Row row{task, host, {}, {}};
+std::optional<MemberRow> row_of(const Redrawing& task, const Host& host) {
+  MemberRow row{task, host, {}, {}};
   for (std::size_t i = 0; i < task.steps.size(); ++i) {
     row.members.push_back(extents_of(host, task.segmentation, task.feature(i)));
     const auto depth_m = box_depth(host, task.feature(i), row.members.back());
@@ -76,8 +76,8 @@ std::optional<Row> row_of(const Redrawing& task, const Host& host) {
 
 /// Draws what takes the place of members of a row, on the facet of their wall that its middle is
 /// in: what stands on a wall may divide it.
-Placed put(const Row& row, const Solid& solid, const Extents& where, double depth_m, Sense sense,
-           const Feature& like) {
+Placed put(const MemberRow& row, const Solid& solid, const Extents& where, double depth_m,
+           Sense sense, const Feature& like) {
   const Host& one = row.host;
   const Vec3 middle = (where.u0 + where.u1) / 2 * one.u + (where.v0 + where.v1) / 2 * one.v +
                       one.plane.offset_m * one.n;
@@ -88,7 +88,7 @@ Placed put(const Row& row, const Solid& solid, const Extents& where, double dept
 }
 
 /// `count` copies of a row's mean, `grown` times as large, from its first to its last edge.
-Placed typified(const Row& row, const RowMeans& means, std::size_t count, double grown) {
+Placed typified(const MemberRow& row, const RowMeans& means, std::size_t count, double grown) {
   const double width = means.width * grown, height = means.height * grown;
   const double free_m = means.all.width() - width;
   if (free_m < 0) return {std::nullopt, "one of those that stay would be wider than the row"};
@@ -108,7 +108,7 @@ Placed typified(const Row& row, const RowMeans& means, std::size_t count, double
 }
 
 /// `count` of a row's members at their own places, as many times as wide and as high.
-Placed thinned_out(const Row& row, std::size_t count, double wider, double higher) {
+Placed thinned_out(const MemberRow& row, std::size_t count, double wider, double higher) {
   const std::size_t n = row.members.size();
   Placed placed{row.task.solid, {}};
   std::vector<std::size_t> stays;
@@ -133,7 +133,7 @@ Placed thinned_out(const Row& row, std::size_t count, double wider, double highe
 
 /// The members of a row that stay where something stands between their new places: at their own
 /// ones, growing as far as there is room.
-Placed thinned_out(const Row& row, std::size_t count, double most) {
+Placed thinned_out(const MemberRow& row, std::size_t count, double most) {
   Placed placed;
   for (int part = kParts; part > 0; --part) {
     const double grown = 1 + most * part / kParts;
@@ -146,7 +146,7 @@ Placed thinned_out(const Row& row, std::size_t count, double most) {
 }
 
 /// One strip for the members from the first to before the last.
-Placed strip(const Row& row, const Solid& solid, std::size_t first, std::size_t last) {
+Placed strip(const MemberRow& row, const Solid& solid, std::size_t first, std::size_t last) {
   Extents all = row.members[first];
   double area_m2 = 0, volume_m3 = 0, middle = 0;
   for (std::size_t i = first; i < last; ++i) {
@@ -169,7 +169,7 @@ Placed strip(const Row& row, const Solid& solid, std::size_t first, std::size_t 
 
 /// As few strips as what stands between the members allows; those that are alone between others
 /// are left as they are.
-Placed strips(const Row& row) {
+Placed strips(const MemberRow& row) {
   const std::size_t n = row.members.size();
   Placed all = strip(row, row.task.solid, 0, n);
   if (all.solid || n == 2) return all;

@@ -40,7 +40,7 @@ class DualActiveSet {
  private:
   /// What a violated separation pulls at: its trees, how each moves, and how the pull of the
   /// active separations changes, all per unit of its own pull.
-  struct Direction {
+  struct SolverDirection {
     std::vector<double> move;  ///< by place
     std::vector<double> pull;  ///< by separation
     double gain = 0;           ///< by which the separation grows
@@ -70,7 +70,7 @@ class DualActiveSet {
   /// False if it cannot hold with the active ones.
   bool satisfy(std::size_t s) {
     while (true) {
-      const Direction along = direction(s);
+      const SolverDirection along = direction(s);
       double step = along.gain > 0 ? missing(s) / along.gain : kInfinite;
       std::size_t slack = separations_.size();
       for (const std::size_t c : active_)
@@ -118,7 +118,7 @@ class DualActiveSet {
   }
 
   /// From the leaves to the root: each separation passes on what its side needs.
-  void share(const Tree& tree, int pulled, double sign, double speed, Direction& out) const {
+  void share(const Tree& tree, int pulled, double sign, double speed, SolverDirection& out) const {
     std::vector<double> needs(tree.places.size(), 0);
     for (std::size_t i = tree.places.size(); i-- > 0;) {
       const int its = tree.places[i];
@@ -134,9 +134,9 @@ class DualActiveSet {
     }
   }
 
-  [[nodiscard]] Direction direction(std::size_t s) const {
-    Direction out{std::vector<double>(places_.size(), 0),
-                  std::vector<double>(separations_.size(), 0), 0};
+  [[nodiscard]] SolverDirection direction(std::size_t s) const {
+    SolverDirection out{std::vector<double>(places_.size(), 0),
+                        std::vector<double>(separations_.size(), 0), 0};
     const auto [before, after, least] = separations_[s];
     // The fixed place is the root of its tree, as its needs are met by itself.
     const auto rooted = [&](int pulled) {
@@ -164,7 +164,7 @@ class DualActiveSet {
   [[nodiscard]] Separated crowded(std::size_t s) const {
     Separated out;
     out.lacking = missing(s);
-    const Direction along = direction(s);
+    const SolverDirection along = direction(s);
     for (std::size_t c = 0; c < separations_.size(); ++c)
       if (c == s || along.pull[c] != 0) out.crowded.push_back(c);
     return out;

@@ -144,7 +144,7 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("what is refused tells what is beside it and with which gap it would do") {
     BoxBody body;
-    body.add({0, 0, 0}, {2, 8, 6}).remove({0.1, 0, 1}, {1.9, 0.2, 2});
+    body.add({0, 0, 0}, {2, 8, 1.2}).remove({0.1, 0, 0.1}, {1.9, 0.2, 1.1});
     const Line line = line_of(body.build());
     Plan plan{1000, {}, {}};
     for (int i = 0; i < std::ssize(line.segmentation.features); ++i)
