@@ -188,7 +188,7 @@ class FeatureRemover {
       if (!cut) continue;
       const detail::Lump& lump = cut->lump;
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0) return "its cut no longer closes";
-      if (cut->caps) return take(b, *cut->caps, true, f);
+      if (cut->caps) return take(b, *cut->caps, f);
       Boundary& trial = copy_of(bodies_[b]);
       std::vector<PointId> touched;
       const auto caps = imprint(trial, *cut->section, lump, touched);
@@ -209,7 +209,7 @@ class FeatureRemover {
                 f.sense == Sense::protrusion},
                work)) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
-        return take(b, patch.caps, false, f);
+        return take(b, patch.caps, f);
       }
     return "its cut is no longer found";
   }
@@ -240,10 +240,9 @@ class FeatureRemover {
     return *trial_;
   }
 
-  /// Takes the part inside the caps off the body if nothing goes that is to stay. `is_bare`: by
-  /// bare_caps().
+  /// Takes the part inside the caps off the body if nothing goes that is to stay.
   std::optional<std::string> take(std::size_t b, const std::vector<detail::CutCap>& caps,
-                                  bool is_bare, const Feature& f) {
+                                  const Feature& f) {
     std::optional<std::string> reason = "its cut no longer closes";
     bool is_told_by_rest = false;
     const auto accepts = [&](const Boundary& lump) {
@@ -256,9 +255,7 @@ class FeatureRemover {
       copy_of(bodies_[b]);
       return take_on_trial(b, caps, {}, f);
     }
-    if (carved)
-      sections_[b].take_note(bodies_[b], carved->touched,
-                             is_bare ? std::span(caps) : std::span<const detail::CutCap>());
+    if (carved) sections_[b].forget();
     return reason;
   }
 
@@ -270,7 +267,7 @@ class FeatureRemover {
     if (auto reason = fault_of(carved->lump, f)) return reason;
     if (loses_others(carved->lump, *trial_, f)) return "a feature that stays would go with it";
     std::swap(bodies_[b], *trial_);
-    sections_[b].take_note(bodies_[b], carved->touched, {});
+    sections_[b].forget();
     return std::nullopt;
   }
 

@@ -21,9 +21,7 @@ struct FoundCut {
   std::optional<std::vector<CutCap>> caps = {};
 };
 
-/// Finds cuts of one body by its sections, which are kept while other parts come off: a wall with
-/// many windows is cut once. Of a section that parts were taken from only regions are used whose
-/// outlines are still there.
+/// Finds cuts of one body by its sections, which are kept until the body changes.
 class KeptSections {
  public:
   explicit KeptSections(const SectionOptions& options) : options_(options) {}
@@ -34,18 +32,13 @@ class KeptSections {
   std::optional<FoundCut> find(const Boundary& body, int plane, int direction, bool is_material,
                                Vec3 point);
 
-  /// A part came off the body, or was filled. `touched`: the points of everything that has changed;
-  /// `bare`: the caps, if the cut followed edges (bare_caps), else none.
-  void take_note(const Boundary& body, std::span<const PointId> touched,
-                 std::span<const CutCap> bare);
-  /// The body has become another one.
+  /// The body has changed.
   void forget() { sections_.clear(); }
 
  private:
   struct KeptSection {
     Section section;
     std::vector<Box> boxes;  ///< by region
-    bool is_fresh = true;    ///< nothing has come off since it was made
   };
   void make(const Boundary& body, KeptSection& kept) const;
   [[nodiscard]] std::optional<FoundCut> cut_in(const Boundary& body, const KeptSection& kept,
