@@ -5,7 +5,7 @@
 #include "kernel/geometry/outlines.h"
 #include "kernel/segment/boundary/parting.h"
 #include "kernel/segment/cuts/carve.h"
-#include "kernel/segment/cuts/kept_sections.h"
+#include "kernel/segment/cuts/feature_cut.h"
 #include "kernel/segment/cuts/patch.h"
 
 #include <algorithm>
@@ -48,8 +48,6 @@ class FeatureRemover {
     int lumps = 0;
     for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
     for (int lump = 0; lump < lumps; ++lump) bodies_.push_back(boundary_of(solid, lump, world_));
-    sections_.assign(bodies_.size(),
-                     detail::KeptSections({-1, options.tolerances.weld_m, false, true}));
   }
 
   Remainder run(const std::vector<FeatureId>& asked) {
@@ -58,7 +56,7 @@ class FeatureRemover {
     hosted_.resize(segmentation_.features.size());
     for (int i = 0; i < std::ssize(segmentation_.features); ++i) enter(FeatureId{i});
     const std::vector<Boundary> untouched = bodies_;
-    while (!try_all()) restart(untouched);
+    while (!try_all()) bodies_ = untouched;
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
       if (go_[at(i)]) out_.removed.push_back(FeatureId{i});
     out_.solid = remaining_solid();
@@ -79,11 +77,6 @@ class FeatureRemover {
     const std::size_t first = at(f.source_polygons.front());
     if (first >= starting_at_.size()) starting_at_.resize(first + 1);
     starting_at_[first].push_back(id);
-  }
-
-  void restart(const std::vector<Boundary>& untouched) {
-    bodies_ = untouched;
-    for (detail::KeptSections& kept : sections_) kept.forget();
   }
 
   /// Removes all that is wanted, one after the other. False if something was refused after what
@@ -182,17 +175,17 @@ class FeatureRemover {
   std::optional<std::string> remove_by_section(const Feature& f, PlaneSide split) {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const auto cut = sections_[b].find(bodies_[b], split >> 1, looks_along_class ? 1 : -1,
-                                         f.sense == Sense::protrusion, f.cap_point);
+    for (Boundary& body : bodies_) {
+      const auto cut = find_feature_cut(body, split >> 1, looks_along_class ? 1 : -1,
+                                        f.sense == Sense::protrusion, f.cap_point,
+                                        {-1, options_.tolerances.weld_m, false, true});
       if (!cut) continue;
       const detail::Lump& lump = cut->lump;
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0) return "its cut no longer closes";
-      if (cut->caps) return take(b, *cut->caps, f);
-      Boundary& trial = copy_of(bodies_[b]);
+      if (cut->caps) return take(body, *cut->caps, f);
+      Boundary& trial = copy_of(body);
       std::vector<PointId> touched;
-      const auto caps = imprint(trial, *cut->section, lump, touched);
-      return take_on_trial(b, caps, std::move(touched), f);
+      return take_on_trial(body, imprint(trial, cut->section, lump, touched), f);
     }
     return "its cut is no longer found";
   }
@@ -200,16 +193,16 @@ class FeatureRemover {
   std::optional<std::string> remove_by_patch(const Feature& f, std::vector<PlaneSide> sides) {
     std::ranges::sort(sides);
     std::int64_t work = 0;
-    for (std::size_t b = 0; b < bodies_.size(); ++b)
+    for (Boundary& body : bodies_)
       for (const detail::Patch& patch : find_patches(
-               bodies_[b], f.sense == Sense::hole,
+               body, f.sense == Sense::hole,
                {{},
                 4,
                 detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg),
                 f.sense == Sense::protrusion},
                work)) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
-        return take(b, patch.caps, f);
+        return take(body, patch.caps, f);
       }
     return "its cut is no longer found";
   }
@@ -241,7 +234,7 @@ class FeatureRemover {
   }
 
   /// Takes the part inside the caps off the body if nothing goes that is to stay.
-  std::optional<std::string> take(std::size_t b, const std::vector<detail::CutCap>& caps,
+  std::optional<std::string> take(Boundary& body, const std::vector<detail::CutCap>& caps,
                                   const Feature& f) {
     std::optional<std::string> reason = "its cut no longer closes";
     bool is_told_by_rest = false;
@@ -250,24 +243,20 @@ class FeatureRemover {
       is_told_by_rest = !reason && !endangered_by(lump, f).empty();
       return !reason && !is_told_by_rest;
     };
-    const auto carved = take_off(bodies_[b], caps, f.sense == Sense::hole, {}, {}, accepts);
-    if (is_told_by_rest) {
-      copy_of(bodies_[b]);
-      return take_on_trial(b, caps, {}, f);
-    }
-    if (carved) sections_[b].forget();
-    return reason;
+    take_off(body, caps, f.sense == Sense::hole, {}, {}, accepts);
+    if (!is_told_by_rest) return reason;
+    copy_of(body);
+    return take_on_trial(body, caps, f);
   }
 
   /// The same on the copy of a body in which the caps are edges already: it takes the body's place.
-  std::optional<std::string> take_on_trial(std::size_t b, const std::vector<detail::CutCap>& caps,
-                                           std::vector<PointId> touched, const Feature& f) {
-    const auto carved = take_off(*trial_, caps, f.sense == Sense::hole, {}, std::move(touched));
+  std::optional<std::string> take_on_trial(Boundary& body, const std::vector<detail::CutCap>& caps,
+                                           const Feature& f) {
+    const auto carved = take_off(*trial_, caps, f.sense == Sense::hole, {}, {});
     if (!carved) return "its cut no longer closes";
     if (auto reason = fault_of(carved->lump, f)) return reason;
     if (loses_others(carved->lump, *trial_, f)) return "a feature that stays would go with it";
-    std::swap(bodies_[b], *trial_);
-    sections_[b].forget();
+    std::swap(body, *trial_);
     return std::nullopt;
   }
 
@@ -363,7 +352,6 @@ class FeatureRemover {
   std::optional<std::string> fill_cavity(const Feature& f) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (!detail::fill_cavity(bodies_[b], f.box)) continue;
-      sections_[b].forget();
       return std::nullopt;
     }
     return "its shell is no longer found";
@@ -381,7 +369,6 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
-  std::vector<detail::KeptSections> sections_;  ///< by body
   std::optional<Boundary> trial_;
   std::vector<char> wanted_;                         ///< by feature: asked for and not refused
   std::vector<char> go_;                             ///< by feature: wanted, or sits on what is

@@ -1,0 +1,41 @@
+#include "kernel/segment/cuts/feature_cut.h"
+
+#include "kernel/base/index.h"
+#include "kernel/segment/sections/edge_index.h"
+
+#include <array>
+
+namespace oriel::detail {
+
+namespace {
+
+/// The first region of the kind that has the point inside.
+std::optional<int> region_around(const Boundary& body, const Section& section, bool is_material,
+                                 Vec3 point) {
+  const Vec3 normal = body.world().planes.plane(section.plane).normal;
+  for (int r = 0; r < std::ssize(section.regions); ++r) {
+    const Region& region = section.regions[at(r)];
+    if (region.is_material != is_material) continue;
+    std::vector<Outline> shape;
+    for (const int l : region.loops) shape.push_back(outline_of(section, l));
+    if (contains(shape, normal, point)) return r;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<FeatureCut> find_feature_cut(const Boundary& body, int plane, int direction,
+                                           bool is_material, Vec3 point,
+                                           const SectionOptions& options) {
+  FeatureCut cut{{plane, direction}, {}};
+  EdgeIndex edges(body, std::array{plane});
+  section_at(body, cut.section, edges.edges_at(0, direction), options);
+  const auto region = region_around(body, cut.section, is_material, point);
+  if (!region) return std::nullopt;
+  cut.lump = LumpFinder(body, cut.section).find(*region);
+  if (cut.lump.is_finite && cut.lump.is_sound) cut.caps = bare_caps(body, cut.section, cut.lump);
+  return cut;
+}
+
+}  // namespace oriel::detail
