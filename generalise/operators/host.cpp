@@ -94,7 +94,7 @@ bool lies_clear(const Solid& solid, const Host& host, const Extents& where,
       const bool is_foot = std::abs(dot(edge.first, host.v) - where.v0) < kOnEdge_m &&
                            std::abs(dot(edge.second, host.v) - where.v0) < kOnEdge_m;
       if (is_foot) continue;
-      if (nearness(corners, edge) < needed_m(clearance, edge)) return false;
+      if (is_too_near(clearance, nearness(corners, edge), edge)) return false;
     }
   return true;
 }

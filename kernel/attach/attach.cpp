@@ -259,8 +259,9 @@ class Attacher {
         // The edge that is cut is the body's own: its height or depth lies between.
         if (std::pair{a, b} == edge_ || std::pair{b, a} == edge_) return;
         const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
-        is_clear = is_clear && detail::distance({corner(p), corner(q)}, edge) >=
-                                   detail::needed_m(clearance_, edge);
+        is_clear =
+            is_clear &&
+            !detail::is_too_near(clearance_, detail::distance({corner(p), corner(q)}, edge), edge);
       });
     }
     // A hole of the facet may lie inside the outline.

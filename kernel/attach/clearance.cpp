@@ -39,6 +39,10 @@ double needed_m(const Clearance& clearance, std::pair<Vec3, Vec3> edge) {
   return std::max(near_m, kLeastEdge_m);
 }
 
+bool is_too_near(const Clearance& clearance, double near_m, std::pair<Vec3, Vec3> edge) {
+  return near_m < std::max(clearance.least_m, kLeastEdge_m) && near_m < needed_m(clearance, edge);
+}
+
 namespace {
 
 /// The box that the facet passes through, in its own axes.

@@ -23,6 +23,10 @@ double nearness(std::span<const Vec3> outline, std::pair<Vec3, Vec3> edge);
 /// half of what vertices are welded at.
 double needed_m(const Clearance& clearance, std::pair<Vec3, Vec3> edge);
 
+/// What comes as near to an edge as `near_m` comes too near. What was there before is looked at
+/// only if it can matter.
+bool is_too_near(const Clearance& clearance, double near_m, std::pair<Vec3, Vec3> edge);
+
 /// Edges of a result are no shorter: what is nearer becomes one vertex when it is read again.
 inline constexpr double kLeastEdge_m = 0.001;
 

@@ -100,8 +100,9 @@ class AcrossRaiser {
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const int a = loop[i], b = loop[(i + 1) % loop.size()];
           if (crossed_.contains({a, b}) || (is_inside(point(a)) && is_inside(point(b)))) continue;
-          if (detail::distance({line_[k].point, after(k).point}, {point(a), point(b)}) <
-              detail::needed_m(clearance_, {point(a), point(b)}))
+          const std::pair edge{point(a), point(b)};
+          if (detail::is_too_near(clearance_,
+                                  detail::distance({line_[k].point, after(k).point}, edge), edge))
             return false;
         }
     return true;
