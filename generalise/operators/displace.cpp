@@ -48,10 +48,10 @@ class FacadeDisplacer {
   void run(Placed& out) const {
     const detail::FacadePlaces found = room_.arrange(movables_, task_.gap_m());
     if (!found.has_room()) return leave_crowded(found, out);
-    const bool had_none = out.left.empty();
+    const std::size_t before = out.left.size();
     for (std::size_t i = 0; i < members_.size(); ++i)
       if (!detail::is_moved(members_[i].now, found.places[i])) leave_as_it_is(i, out);
-    if (had_none && !out.left.empty()) return;
+    if (out.left.size() > before) return;  // the others are tried again without them
     for (std::size_t i = 0; i < members_.size() && out.solid; ++i) {
       const FacadeMember& one = members_[i];
       Placed placed = put_on_facade(*out.solid, task_.segmentation, host_, found.places[i],

@@ -18,8 +18,6 @@ namespace oriel::detail {
 namespace {
 
 constexpr double kInfinity = Box::kInfinity;
-/// What stands on an edge is no further off it.
-constexpr double kOnFoot_m = 0.002;
 
 /// From and to.
 using AxisRange = std::pair<double, double>;
@@ -52,10 +50,7 @@ double distance_of(const Extents& a, const Extents& b) {
 double distance_of(const Extents& box, Vec3 from, Vec3 to) {
   const std::array<Vec3, 4> corners{Vec3{box.u0, box.v0, 0}, Vec3{box.u1, box.v0, 0},
                                     Vec3{box.u1, box.v1, 0}, Vec3{box.u0, box.v1, 0}};
-  double least_m = kInfinity;
-  for (std::size_t c = 0; c < corners.size(); ++c)
-    least_m = std::min(least_m, distance({corners.at(c), corners.at((c + 1) % 4)}, {from, to}));
-  return least_m;
+  return nearness(corners, {from, to});
 }
 
 }  // namespace
@@ -67,7 +62,7 @@ FacadeRoom::FacadeRoom(const Solid& solid, const Segmentation& segmentation, con
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int a = loop[i], b = loop[(i + 1) % loop.size()];
       const Vec3 p = solid.vertices[at(a)].point, q = solid.vertices[at(b)].point;
-      const bool is_foot = dot(q - p, host.u) > 0 && std::abs(dot(q - p, host.v)) < kOnFoot_m;
+      const bool is_foot = dot(q - p, host.u) > 0 && std::abs(dot(q - p, host.v)) < kOnEdge_m;
       lines_.push_back(
           {dot(p, host.u), dot(p, host.v), dot(q, host.u), dot(q, host.v), is_foot, {}, a, b});
     }
@@ -122,7 +117,7 @@ std::vector<FeatureId> FacadeRoom::beside(const Extents& box, double distance_m)
 }
 
 bool FacadeRoom::stands_on(const Extents& box, const FacadeLine& line) {
-  return line.is_foot && std::abs(line.v0 - box.v0) < kOnFoot_m &&
+  return line.is_foot && std::abs(line.v0 - box.v0) < kOnEdge_m &&
          apart({line.u0, line.u1}, along(box)) < 0;
 }
 

@@ -71,15 +71,8 @@ class HindranceFinder {
     const auto host = task_.host();
     if (!host) return;
     Extents all = extents_of(*host, task_.segmentation, task_.feature());
-    for (std::size_t i = 1; i < task_.steps.size(); ++i) {
-      const Extents one = extents_of(*host, task_.segmentation, task_.feature(i));
-      all = {std::min(all.u0, one.u0),
-             std::max(all.u1, one.u1),
-             std::min(all.v0, one.v0),
-             std::max(all.v1, one.v1),
-             all.out0,
-             all.out1};
-    }
+    for (std::size_t i = 1; i < task_.steps.size(); ++i)
+      all = united(all, extents_of(*host, task_.segmentation, task_.feature(i)));
     out_.beside = FacadeRoom(task_.solid, task_.segmentation, *host).beside(all, task_.gap_m());
   }
 

@@ -18,10 +18,6 @@ namespace oriel::detail {
 namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
-/// Facets that lean less than this (sine) from the vertical are walls: 15 degrees.
-constexpr double kWall = 0.26;
-/// A sill this close to the lower edge of its wall is on it.
-constexpr double kOnEdge_m = 0.002;
 
 /// Of a facet that lies flat: along the first wall.
 Vec3 along_a_wall(const Solid& solid) {
@@ -143,6 +139,12 @@ std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point) 
     return host;
   }
   return std::nullopt;
+}
+
+Extents united(const Extents& one, const Extents& other) {
+  return {std::min(one.u0, other.u0),     std::max(one.u1, other.u1),
+          std::min(one.v0, other.v0),     std::max(one.v1, other.v1),
+          std::min(one.out0, other.out0), std::max(one.out1, other.out1)};
 }
 
 Extents extents_of(const Host& host, std::span<const Vec3> points) {

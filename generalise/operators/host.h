@@ -23,6 +23,11 @@ struct Host {
   Vec3 u, v, n;
 };
 
+/// Facets that lean less than this (sine) from the vertical are walls: 15 degrees.
+inline constexpr double kWall = 0.26;
+/// What is this close to an edge lies or stands on it.
+inline constexpr double kOnEdge_m = 0.002;
+
 /// The facet of `plane` that has the point in it, or nothing.
 std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point);
 
@@ -35,18 +40,18 @@ struct Extents {
   /// How far it reaches from the plane to either side.
   [[nodiscard]] double depth() const { return std::max(out1, -out0); }
 };
+/// Those that have both in them.
+Extents united(const Extents& one, const Extents& other);
 Extents extents_of(const Host& host, std::span<const Vec3> points);
 Extents extents_of(const Host& host, const Segmentation& segmentation, const Feature& feature);
 
-/// What an operator made: the solid, with the facets that are new and the feature each belongs to;
-/// or the reason why not.
+/// What an operator made: the solid, whose new facets have the polygons of the features that they
+/// stand for; or the reason why not.
 struct Placed {
   std::optional<Solid> solid;
   std::string reason;
   /// The feature is as the operator wants it already, or alone in its row: it stays, not refused.
   bool is_needless = false;
-  /// Of a refusal: what would let it act.
-  Hindrance hindrance{};
   /// Members of a task that may stay as they are, each with its own reason: the others are tried
   /// again without them.
   struct LeftMember {

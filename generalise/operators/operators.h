@@ -22,7 +22,8 @@ namespace oriel {
 
 /// What an operator that redraws features works on: the solid from which they were taken off
 /// already, and the steps for them, which have one rule and so the same arguments. Groups
-/// (aggregate, typify) have all members, ordered along their wall; other operators have one step.
+/// (aggregate, typify) have all members, ordered along their wall; those of which some may stay
+/// (Operator::takes_some) have all of one wall plane; other operators have one step.
 struct Redrawing {
   const Solid& solid;
   const Segmentation& segmentation;
@@ -79,9 +80,10 @@ detail::Placed merge(const Redrawing& task);
 ///
 /// `{enlarge: {to: LENGTH, anchor: sill|centre, gap: LENGTH}}`: width and height become at least
 /// `to`; the sill stays where it is, or the centre does. Where host margin or neighbours leave no
-/// room for all of it, it grows as far as eighths of the way allow. Precondition: a recess or
-/// a block that is a box, on a facet that is found again; some growth is possible. Touches: the
-/// wall's facet, and the ground's for a door. Depth, directions and the parallel pane stay.
+/// room for all of it, it grows as far as eighths of the way allow, else in one direction only.
+/// Precondition: a recess in a wall, a block that is a box, or an outline (box_depth), on a facet
+/// that is found again; some growth is possible. Touches: the wall's facet, and that of the ground
+/// or slab that it stands on. Depth, directions and the parallel pane stay.
 /// Inverse: omit, and the outline that the segmentation still has, sunk in or put on.
 detail::Placed enlarge(const Redrawing& task);
 
@@ -129,13 +131,14 @@ bool becomes_block(const Step& step);
 /// "aggregation").
 ///
 /// `{aggregate: {into: block}}` is for a slab with its parapet: the box around the feature and all
-/// that sits on it takes their place. `{aggregate: {into: strip, gap: LENGTH}}`: the strip is one
-/// recess as wide as all of them together from the first to the last, with the area of all of them
-/// (so it is lower), about the middle of their heights, and with their mean depth. It stands for
-/// the first of them along the wall; the others are gone. Where something divides the row there is
-/// a strip on either side of it, and what is alone between others stays as it is. Precondition: at
-/// least two recesses that are boxes, of one class, storey and wall plane. Touches: the
-/// wall's facet. Inverse: omit, and the recesses that the segmentation still has.
+/// that sits on it takes their place. `{aggregate: {into: strip, gap: LENGTH}}`: the strip is of
+/// the kind of most of them (recess, block or outline), as wide as all of them together from the
+/// first to the last, with the area of all of them (so it is lower), about the middle of their
+/// heights, and with their mean depth. It stands for the first of them along the wall; the others
+/// are gone. Where something divides the row there is a strip on either side of it, and what is
+/// alone between others stays as it is. Precondition: at least two, of one class, storey and wall
+/// plane, each a recess in a wall, a block that is a box, or an outline. Touches: the wall's facet.
+/// Inverse: omit, and the recesses that the segmentation still has.
 detail::Placed aggregate(const Redrawing& task);
 
 /// The operator `typify`: many openings of a row become fewer and larger ones (paper 5.1,
@@ -146,9 +149,8 @@ detail::Placed aggregate(const Redrawing& task);
 /// They stand at equal distances from the first to the last edge of the row, at the mean height of
 /// its middle. The first m of the row stand for them; the others are gone. Where something stands
 /// in the way, m of the row stay at their own places, the ends among them, and grow as far as there
-/// is room. Precondition: at least two recesses that are boxes, of one class, storey and wall
-/// plane, and m < n. Touches: the wall's facet. Inverse: omit, and the recesses that the
-/// segmentation still has.
+/// is room. Precondition: at least two, as for aggregate, and m < n. Touches: the wall's facet.
+/// Inverse: omit, and the recesses that the segmentation still has.
 detail::Placed typify(const Redrawing& task);
 
 /// How many of n stay.
@@ -176,7 +178,8 @@ struct Operator {
   int rank;
   /// It redraws several features together, if their steps ask for it.
   bool (*is_for_groups)(const Step&);
-  /// How many of the features of a task are still there afterwards; the first ones.
+  /// How many of the features of a task are still there afterwards; the first ones, unless the
+  /// operator says which (Placed::stays).
   std::size_t (*kept)(const std::vector<Step>&);
   /// Its tasks are all features of one wall plane, of which some may stay as they are.
   bool takes_some = false;

@@ -16,12 +16,9 @@ namespace oriel::detail {
 
 namespace {
 
-/// Facets that lean less than this (sine) from the vertical are walls: 15 degrees.
-constexpr double kWallLean = 0.26;
-
 /// The axes of a wall; its facet is not looked for.
 std::optional<Host> wall_axes(const Plane& plane) {
-  if (std::abs(plane.normal.z) >= kWallLean) return std::nullopt;
+  if (std::abs(plane.normal.z) >= kWall) return std::nullopt;
   Host host{{}, plane, normalised(cross({0, 0, 1}, plane.normal)), {}, plane.normal};
   host.v = cross(host.n, host.u);
   return host;
@@ -43,20 +40,13 @@ std::optional<Extents> asked_for(const Redrawing& task, const Host& host) {
 
 /// Where the feature has been drawn on a solid: all of the facets that have its polygons.
 std::optional<Extents> drawn(const Solid& solid, const Host& host, const Feature& feature) {
-  constexpr double kInf = Box::kInfinity;
-  Extents box{kInf, -kInf, kInf, -kInf, 0, 0};
+  std::vector<Vec3> points;
   for (const Facet& facet : solid.facets) {
     if (facet.polygons != feature.source_polygons) continue;
     for (const Loop& loop : facet.loops)
-      for (const int v : loop) {
-        const Vec3 p = solid.vertices[static_cast<std::size_t>(v)].point;
-        box.u0 = std::min(box.u0, dot(p, host.u));
-        box.u1 = std::max(box.u1, dot(p, host.u));
-        box.v0 = std::min(box.v0, dot(p, host.v));
-        box.v1 = std::max(box.v1, dot(p, host.v));
-      }
+      for (const int v : loop) points.push_back(solid.vertices[static_cast<std::size_t>(v)].point);
   }
-  return box.u0 < box.u1 ? std::optional(box) : std::nullopt;
+  return points.empty() ? std::nullopt : std::optional(extents_of(host, points));
 }
 
 class PushFinder {

@@ -15,11 +15,6 @@ using detail::Extents;
 using detail::Host;
 using detail::Placed;
 
-void unite(Extents& all, const Extents& one) {
-  all = {std::min(all.u0, one.u0), std::max(all.u1, one.u1),     std::min(all.v0, one.v0),
-         std::max(all.v1, one.v1), std::min(all.out0, one.out0), std::max(all.out1, one.out1)};
-}
-
 /// The box around a feature and all that sits on it.
 Placed block(const Redrawing& task, const Host& host) {
   const Feature& feature = task.feature();
@@ -28,7 +23,7 @@ Placed block(const Redrawing& task, const Host& host) {
   Extents all = extents_of(host, task.segmentation, feature);
   if (is_box(feature, all)) return {std::nullopt, "it is a block already"};
   for (const FeatureId id : with_what_sits_on(task.segmentation, {task.steps[0].feature}))
-    unite(all, extents_of(host, task.segmentation, task.segmentation.features[id.index()]));
+    all = united(all, extents_of(host, task.segmentation, task.segmentation.features[id.index()]));
   return place_box(task.solid, host, all, all.out1, Attach::raise, task.gap_m(),
                    feature.source_polygons);
 }
@@ -191,7 +186,7 @@ Placed strips(const MemberRow& row) {
     stays.push_back(first);
   }
   if (stays.empty()) return all;
-  if (!left.empty()) return {std::nullopt, left[0].reason, true, {}, left};
+  if (!left.empty()) return {std::nullopt, left[0].reason, true, left};
   placed.stays = std::move(stays);
   return placed;
 }

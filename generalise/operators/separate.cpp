@@ -11,7 +11,9 @@ namespace oriel {
 
 namespace {
 
-/// Separations that miss by no more hold: a thousandth of the least edge of a file.
+/// Separations that miss by no more hold. Sums of doubles along a wall of 1 km are off by 1e-12 m,
+/// which must not count as missing, and callers ask for a millimetre more than they check
+/// (kNoShift_m), so anything between would do.
 constexpr double kHolds_m = 1e-6;
 /// Steps for each separation after which something is wrong.
 constexpr std::size_t kMostSteps = 100;
