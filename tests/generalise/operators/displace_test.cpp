@@ -3,6 +3,7 @@
 #include "generalise/operators/separate.h"
 #include "kernel/base/index.h"
 #include "tests/generalise/line.h"
+#include "tests/generalise/operators/drawn_wall.h"
 #include "tests/support/flush.h"
 #include "tests/support/shapes.h"
 
@@ -137,29 +138,6 @@ Plan displacing(const Line& line, std::map<std::string, double> numbers) {
   return plan;
 }
 
-Generalised displaced(const Line& line, const Plan& plan) {
-  auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
-  REQUIRE(out.value);
-  CHECK(is_closed(out.value->solid));
-  return std::move(*out.value);
-}
-
-/// The outline of each opening in the front wall (y = 0): of its hole, or of its own facet.
-std::vector<Box> openings_in_front(const Solid& solid) {
-  std::vector<Box> boxes;
-  for (const Facet& facet : solid.facets) {
-    const Plane& plane = solid.planes[facet.plane.index()];
-    if (plane.normal.y > -0.99 || std::abs(plane.offset_m) > 1e-9) continue;
-    for (std::size_t loop = 1; loop < facet.loops.size(); ++loop) {
-      Box box;
-      for (const int v : facet.loops[loop]) box.grow(solid.vertices[at(v)].point);
-      boxes.push_back(box);
-    }
-  }
-  std::ranges::sort(boxes, {}, [](const Box& box) { return std::pair(box.min.x, box.min.z); });
-  return boxes;
-}
-
 double apart_m(const Box& a, const Box& b) {
   const double x = std::max({0.0, a.min.x - b.max.x, b.min.x - a.max.x});
   const double z = std::max({0.0, a.min.z - b.max.z, b.min.z - a.max.z});
@@ -220,7 +198,7 @@ TEST_SUITE("generalise") {
     body.add({0, 0, 0}, {10, 8, 6});
     for (const double x : {1.0, 2.1, 3.2, 7.0}) body.remove({x, 0, 3}, {x + 1, 0.2, 4});
     const Line line = line_of(body.build());
-    const auto out = displaced(line, displacing(line, {{"gap", 0.5}}));
+    const auto out = carried(line, displacing(line, {{"gap", 0.5}}));
     CHECK(volume_m3(out.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
     const auto boxes = openings_in_front(out.solid);
     REQUIRE(boxes.size() == 4);
@@ -241,7 +219,7 @@ TEST_SUITE("generalise") {
       body.remove({x, 0, 2.9}, {x + 1, 0.2, 4.1});
     }
     const Line line = line_of(body.build());
-    const auto out = displaced(line, displacing(line, {{"gap", 0.5}}));
+    const auto out = carried(line, displacing(line, {{"gap", 0.5}}));
     CHECK(out.refused.empty());
     CHECK(out.changed.size() == 6);
     const auto boxes = openings_in_front(out.solid);
@@ -264,7 +242,7 @@ TEST_SUITE("generalise") {
     std::erase_if(plan.steps, [&](const Step& step) {
       return line.segmentation.features[step.feature.index()].box.min.z < 0.1;
     });
-    const auto out = displaced(line, plan);
+    const auto out = carried(line, plan);
     CHECK(out.refused.empty());
     CHECK(out.changed.size() == 2);
     const auto boxes = openings_in_front(out.solid);
@@ -278,7 +256,7 @@ TEST_SUITE("generalise") {
     Building building = plain_block();
     for (const double x : {1.0, 2.1, 7.0}) add_pane(building, x, 3.5, x + 1, 4.5);
     const Line line = line_of(building);
-    const auto out = displaced(line, displacing(line, {{"gap", 0.5}}));
+    const auto out = carried(line, displacing(line, {{"gap", 0.5}}));
     CHECK(out.changed.size() == 2);
     CHECK(volume_m3(out.solid) == volume_m3(line.solid));
     for (const auto& refused : out.refused) CHECK(refused.code == Code::none);
@@ -290,7 +268,7 @@ TEST_SUITE("generalise") {
     for (int i = 0; i < 6; ++i) body.remove({0.3 + 1.6 * i, 0, 3.5}, {1.7 + 1.6 * i, 0.2, 4.5});
     for (const double x : {1.0, 2.1}) body.remove({x, 0, 1}, {x + 1, 0.2, 2});
     const Line line = line_of(body.build());
-    const auto out = displaced(line, displacing(line, {{"gap", 0.3}}));
+    const auto out = carried(line, displacing(line, {{"gap", 0.3}}));
     CHECK(out.changed.size() == 2);
     REQUIRE(out.refused.size() == 6);
     for (const auto& refused : out.refused) {

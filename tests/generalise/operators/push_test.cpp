@@ -4,6 +4,7 @@
 #include "generalise/series/series_levels.h"
 #include "kernel/base/index.h"
 #include "tests/generalise/line.h"
+#include "tests/generalise/operators/drawn_wall.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
@@ -44,35 +45,12 @@ Plan door_grows(const Line& line, double to_m, double gap_m) {
   return plan;
 }
 
-Generalised pushed(const Line& line, const Plan& plan) {
-  auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
-  REQUIRE(out.value);
-  CHECK(is_closed(out.value->solid));
-  return std::move(*out.value);
-}
-
-/// The outlines of windows in the front wall, from left to right.
-std::vector<Box> windows_in_front(const Solid& solid) {
-  std::vector<Box> boxes;
-  for (const Facet& facet : solid.facets) {
-    const Plane& plane = solid.planes[facet.plane.index()];
-    if (plane.normal.y > -0.99 || std::abs(plane.offset_m) > 1e-9) continue;
-    for (std::size_t loop = 1; loop < facet.loops.size(); ++loop) {
-      Box box;
-      for (const int v : facet.loops[loop]) box.grow(solid.vertices[at(v)].point);
-      boxes.push_back(box);
-    }
-  }
-  std::ranges::sort(boxes, {}, [](const Box& box) { return box.min.x; });
-  return boxes;
-}
-
 }  // namespace
 
 TEST_SUITE("generalise") {
   TEST_CASE("a door on the ground grows though the gap is more than the depth of its recess") {
     const Line line = line_of(wall_with_door(1, 8).build());
-    const auto out = pushed(line, door_grows(line, 2, 0.5));
+    const auto out = carried(line, door_grows(line, 2, 0.5));
     CHECK(out.refused.empty());
     CHECK(out.changed.size() == 1);
     CHECK(out.pushed.empty());
@@ -82,13 +60,13 @@ TEST_SUITE("generalise") {
   TEST_CASE("a door that grows pushes the windows beside it along the wall") {
     const Line line = line_of(wall_with_door(3.2, 5.8).build());
     const Plan plan = door_grows(line, 2, 0.3);
-    const auto out = pushed(line, plan);
+    const auto out = carried(line, plan);
     CHECK(out.refused.empty());
     CHECK(out.removed.empty());
     CHECK(out.changed.size() == 3);
     REQUIRE(out.pushed.size() == 2);
     for (const PushedFeature& one : out.pushed) CHECK(one.by == plan.steps[0].feature);
-    const auto windows = windows_in_front(out.solid);
+    const auto windows = openings_in_front(out.solid);
     REQUIRE(windows.size() == 2);
     CHECK(windows[0].max.x == doctest::Approx(4 - 0.3).epsilon(1e-3));
     CHECK(windows[1].min.x == doctest::Approx(6 + 0.3).epsilon(1e-3));
@@ -108,10 +86,10 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("a window that is pushed pushes the next one and no other moves") {
     const Line line = line_of(wall_with_door(2.9, 7.5).remove({1.8, 0, 1}, {2.8, 0.2, 2}).build());
-    const auto out = pushed(line, door_grows(line, 2, 0.3));
+    const auto out = carried(line, door_grows(line, 2, 0.3));
     CHECK(out.refused.empty());
     CHECK(out.pushed.size() == 2);
-    const auto windows = windows_in_front(out.solid);
+    const auto windows = openings_in_front(out.solid);
     REQUIRE(windows.size() == 3);
     CHECK(windows[1].max.x <= 4 - 0.3);
     // They come no nearer to each other than they were.
@@ -121,9 +99,9 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("where windows have no room to be pushed the door grows as far as it can") {
     const Line line = line_of(wall_with_door(3.2, 5.8).remove({0.4, 0, 1}, {3.1, 0.2, 2}).build());
-    const auto out = pushed(line, door_grows(line, 3.4, 0.1));
+    const auto out = carried(line, door_grows(line, 3.4, 0.1));
     CHECK(out.refused.empty());
-    const auto windows = windows_in_front(out.solid);
+    const auto windows = openings_in_front(out.solid);
     REQUIRE(windows.size() == 3);
     CHECK(windows[0].min.x == doctest::Approx(0.4));
     CHECK(windows[1].min.x == doctest::Approx(3.2));
@@ -137,7 +115,7 @@ TEST_SUITE("generalise") {
     for (const FeatureId id : *plan.steps[0].openings)
       if (id != plan.steps[0].feature) plan.steps.push_back({id, "omit", "test"});
     std::ranges::sort(plan.steps, {}, &Step::feature);
-    const auto out = pushed(line, plan);
+    const auto out = carried(line, plan);
     CHECK(out.pushed.empty());
     CHECK(out.removed.size() == 2);
   }
@@ -149,14 +127,14 @@ TEST_SUITE("generalise") {
     Plan plan{1000, {}, {}};
     for (int i = 0; i < std::ssize(line.segmentation.features); ++i)
       plan.steps.push_back({{i}, "enlarge", "test", {{"to", 1.88}, {"gap", 0.5}}, {}});
-    const auto out = pushed(line, plan);
+    const auto out = carried(line, plan);
     REQUIRE(out.refused.size() == 1);
     const Hindrance& hindrance = out.refused[0].hindrance;
     REQUIRE(hindrance.needs.size() == 1);
     CHECK(hindrance.needs[0].what == "gap");
     CHECK(hindrance.needs[0].less + hindrance.needs[0].then == doctest::Approx(0.5));
     for (Step& step : plan.steps) step.numbers["gap"] = hindrance.needs[0].then;
-    CHECK(pushed(line, plan).changed.size() == 1);
+    CHECK(carried(line, plan).changed.size() == 1);
     CHECK(reason_of(out.refused[0], line.table()).find("; it would with a gap of ") !=
           std::string::npos);
   }
@@ -169,7 +147,7 @@ TEST_SUITE("generalise") {
     Plan plan{1000, {}, {}};
     for (int i = 0; i < std::ssize(line.segmentation.features); ++i)
       plan.steps.push_back({{i}, "displace", "test", {{"gap", 0.3}}, {}});
-    const auto out = pushed(line, plan);
+    const auto out = carried(line, plan);
     REQUIRE(out.refused.size() == 6);
     const auto& needs = out.refused[0].hindrance.needs;
     REQUIRE(needs.size() == 2);
@@ -178,7 +156,7 @@ TEST_SUITE("generalise") {
     CHECK(needs[1].less == 1);
     CHECK(needs[1].then == 5);
     for (Step& step : plan.steps) step.numbers["gap"] = needs[0].then;
-    const auto with_less = pushed(line, plan);
+    const auto with_less = carried(line, plan);
     for (const auto& refused : with_less.refused) CHECK(refused.code == Code::none);
   }
 }

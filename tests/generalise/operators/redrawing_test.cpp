@@ -3,6 +3,7 @@
 #include "interpret/plan/plan.h"
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"
+#include "tests/generalise/operators/drawn_wall.h"
 #include "tests/support/flush.h"
 #include "tests/support/houses.h"
 #include "tests/support/shapes.h"
@@ -51,13 +52,6 @@ bool is_any(const Feature&) { return true; }
 Step step(const std::string& operation, std::map<std::string, double> numbers = {},
           std::map<std::string, std::string> words = {}) {
   return {{}, operation, "test", std::move(numbers), std::move(words)};
-}
-
-Generalised carried(const Line& line, const Plan& plan) {
-  auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
-  REQUIRE(out.value);
-  CHECK(is_closed(out.value->solid));
-  return std::move(*out.value);
 }
 
 }  // namespace
