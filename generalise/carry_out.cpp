@@ -81,8 +81,12 @@ class UndoneSteps {
   /// The first `count` steps of the plan, without those that were taken back.
   [[nodiscard]] Plan first(std::size_t count) const {
     Plan some{plan_.scale, {}, {}};
-    for (std::size_t i = 0; i < count; ++i)
-      if (!contains(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (contains(plan_.steps[i].feature)) continue;
+      some.steps.push_back(plan_.steps[i]);
+      // What has to stay does not go along either.
+      std::erase_if(some.steps.back().with, [&](FeatureId id) { return contains(id); });
+    }
     return some;
   }
 
