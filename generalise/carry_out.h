@@ -21,6 +21,12 @@ struct PushedFeature {
   FeatureId feature, by;
 };
 
+/// A feature that is gone without a step that removes it, and the one that it went along with: what
+/// it belongs to (Step::with), what stands for it in its row, or what it is on or in.
+struct AlongFeature {
+  FeatureId feature, with;
+};
+
 /// A building after the steps of a plan.
 struct CarriedOut {
   Solid solid;
@@ -40,6 +46,8 @@ struct CarriedOut {
   std::vector<UnclearedEdge> uncleared{};
   /// Those of the changed that have no step: openings that made room.
   std::vector<PushedFeature> pushed{};
+  /// Those of the removed that went along with others; by feature.
+  std::vector<AlongFeature> along{};
 };
 
 /// Features that may be pieces of something larger: a plinth, the eaves, a parapet.

@@ -36,6 +36,7 @@ class StepRunner {
       }
       for (const auto& [id, refused] : failed_) out.refused.push_back(refused);
       std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
+      add_along(out);
       return out;
     }
   }
@@ -255,11 +256,44 @@ class StepRunner {
     out.solid = std::move(*placed.solid);
     if (placed.stays.empty())
       for (std::size_t i = 0; i < its.kept(task.steps); ++i) placed.stays.push_back(i);
+    std::vector<Step> stay;
     for (const std::size_t member : placed.stays) {
       std::erase(out.removed, task.steps[member].feature);
       out.changed.push_back(task.steps[member].feature);
+      stay.push_back(task.steps[member]);
     }
     std::ranges::sort(out.changed);
+    for (const Step& step : task.steps)
+      if (!stay.empty() && std::ranges::binary_search(out.removed, step.feature))
+        out.along.push_back({step.feature, nearest_of(stay, step.feature)});
+  }
+
+  static bool leaves_for_good(const Step& step) {
+    return step.operation == "omit" || step.operation == "flatten";
+  }
+
+  /// After what stands for rows: what belongs to features that left their places, and then what was
+  /// on or in others.
+  void add_along(CarriedOut& out) const {
+    const auto has_left = [&](FeatureId id) {
+      return id.is_valid() && (std::ranges::binary_search(out.removed, id) ||
+                               std::ranges::binary_search(out.changed, id));
+    };
+    std::map<FeatureId, FeatureId> with;
+    for (const AlongFeature& one : out.along) with.emplace(one.feature, one.with);
+    for (const Step& step : plan_.steps)
+      if (!failed_.contains(step.feature) && has_left(step.feature))
+        for (const FeatureId id : step.with) with.emplace(id, step.feature);
+    for (const FeatureId id : out.removed) {
+      const Feature& its = segmentation_.features[id.index()];
+      if (has_left(its.parent)) with.emplace(id, its.parent);
+      if (has_left(its.host)) with.emplace(id, its.host);
+    }
+    for (const Step& step : plan_.steps)
+      if (!failed_.contains(step.feature) && leaves_for_good(step)) with.erase(step.feature);
+    out.along.clear();
+    for (const auto& [id, other] : with)
+      if (std::ranges::binary_search(out.removed, id)) out.along.push_back({id, other});
   }
 
   [[nodiscard]] detail::PlanTask without_failed(detail::PlanTask task) const {

@@ -61,16 +61,31 @@ Pieces pieces_of(const Plan& plan, const FeatureTable& table,
   return pieces;
 }
 
-/// Of what was moved aside the step is that of what it made room for.
-void tell_pusher(FeatureId id, const Plan& plan, const Generalised& generalised,
-                 const FeatureTable& table, FeatureOutcome& outcome) {
-  const auto pushed = std::ranges::find(generalised.pushed, id, &PushedFeature::feature);
-  if (pushed == generalised.pushed.end()) return;
-  const auto step = std::ranges::find(plan.steps, pushed->by, &Step::feature);
-  if (step == plan.steps.end()) return;
+/// What has no step of its own has that of what it made room for, or went along with.
+void tell_cause(FeatureId cause, const std::string& what, const Plan& plan,
+                const FeatureTable& table, FeatureOutcome& outcome) {
+  outcome.reason = what + table.id(cause);
+  const auto step = std::ranges::find(plan.steps, cause, &Step::feature);
+  if (step == plan.steps.end() || !outcome.operation.empty()) return;
   outcome.operation = step->operation;
   outcome.rule = step->rule;
-  outcome.reason = "pushed by " + table.id(pushed->by);
+}
+
+void tell_gone(FeatureId id, const Plan& plan, const Generalised& generalised,
+               const FeatureTable& table, FeatureOutcome& outcome) {
+  const bool is_omitted = outcome.operation == "omit" || outcome.operation == "flatten";
+  outcome.outcome = is_omitted ? "omitted" : "went along";
+  const auto along = std::ranges::find(generalised.along, id, &AlongFeature::feature);
+  if (!is_omitted && along != generalised.along.end())
+    tell_cause(along->with, "went along with ", plan, table, outcome);
+}
+
+void tell_changed(FeatureId id, const Plan& plan, const Generalised& generalised,
+                  const FeatureTable& table, FeatureOutcome& outcome) {
+  outcome.outcome = "changed";
+  const auto pushed = std::ranges::find(generalised.pushed, id, &PushedFeature::feature);
+  if (pushed != generalised.pushed.end())
+    tell_cause(pushed->by, "pushed by ", plan, table, outcome);
 }
 
 /// As many features in the way are named in a sentence.
@@ -117,7 +132,7 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
   out.value = Generalised{
       std::move(done.solid),   std::move(done.removed),   std::move(done.refused), false,
       std::move(done.changed), std::move(done.uncleared), closing_faces(solid),    {},
-      std::move(done.pushed)};
+      std::move(done.pushed),  std::move(done.along)};
   return out;
 }
 
@@ -143,17 +158,14 @@ std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised
     one.label = interpretation.verdicts[id.index()].label;
     const auto step = std::ranges::find(plan.steps, id, &Step::feature);
     const auto refused = std::ranges::find(generalised.refused, id, &CarriedOut::Refused::feature);
-    const bool is_gone = std::ranges::binary_search(generalised.removed, id);
     if (step != plan.steps.end()) {
       one.operation = step->operation;
       one.rule = step->rule;
     }
-    if (is_gone)
-      one.outcome =
-          one.operation == "omit" || one.operation == "flatten" ? "omitted" : "went along";
-    else if (std::ranges::binary_search(generalised.changed, id)) {
-      one.outcome = "changed";
-      tell_pusher(id, plan, generalised, table, one);
+    if (std::ranges::binary_search(generalised.removed, id)) {
+      tell_gone(id, plan, generalised, table, one);
+    } else if (std::ranges::binary_search(generalised.changed, id)) {
+      tell_changed(id, plan, generalised, table, one);
     } else if (refused != generalised.refused.end()) {
       one.outcome = refused->code == Code::none || is_part(*refused, plan, interpretation)
                         ? "kept"

@@ -45,6 +45,8 @@ struct Generalised {
   std::vector<FeatureId> undrawn{};
   /// Those of the changed that have no step: openings that made room.
   std::vector<PushedFeature> pushed{};
+  /// Those of the removed that went along with others; by feature.
+  std::vector<AlongFeature> along{};
 };
 
 /// What was to go for its size only turns out to be a part of the building: without it something
@@ -105,10 +107,12 @@ struct FeatureOutcome {
   std::string operation;  ///< of the plan; empty: none was asked for
   std::string rule;       ///< the pack's entry or the profile's verdict that asked for it
   /// "kept": nothing was asked for, or nothing is to be done, or is_part(); "omitted"; "changed";
-  /// "went along": with what carries it or with its row; "refused": it is as it was.
+  /// "went along": with what it belongs to, its row, or what carries it; "refused": it is as it
+  /// was.
   std::string outcome;
   Code code = Code::none;  ///< of a refusal, and of a part
-  std::string reason;      ///< of a refusal, of a part, and of what was pushed
+  /// Of a refusal and a part; "pushed by ID", "went along with ID".
+  std::string reason;
   /// Of a refusal: what would let the operator act, and the ids of what is in its way.
   std::vector<Need> needs{};
   std::vector<std::string> beside{};

@@ -130,12 +130,14 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
       all += line.dump(-1, ' ', false, kReplace) + "\n";
       continue;
     }
+    const bool is_reason = one.reason.starts_with(one.outcome);  // "went along with ID"
     std::string text = fmt::format("{} {} {} {}: {}", target, building, one.feature,
-                                   one.label.empty() ? "unknown" : one.label, one.outcome);
+                                   one.label.empty() ? "unknown" : one.label,
+                                   is_reason ? one.reason : one.outcome);
     if (!one.operation.empty()) text += fmt::format(", {} by {}", one.operation, one.rule);
     if (one.code != Code::none)
       text += fmt::format(" ({} {})", to_string(one.code), one.reason);
-    else if (!one.reason.empty())
+    else if (!one.reason.empty() && !is_reason)
       text += fmt::format(" ({})", one.reason);
     all += printable(text) + '\n';
   }

@@ -118,7 +118,8 @@ class RedrawnWriter {
     if (outcome.outcome == "changed")
       return fmt::format("changed ({}){}{}", outcome.operation, asked,
                          outcome.reason.empty() ? "" : ": " + outcome.reason);
-    if (outcome.outcome == "went along") return "gone with what it is on or in";
+    if (outcome.outcome == "went along")
+      return outcome.reason.empty() ? outcome.outcome : outcome.reason + asked;
     if (outcome.outcome == "refused")
       return fmt::format("stays as it is, though {} asks for {}: {}",
                          outcome.rule.empty() ? "the pack" : outcome.rule, outcome.operation,

@@ -189,8 +189,13 @@ TEST_SUITE("generalise") {
     CHECK(out.changed == std::vector{window});
     CHECK(out.removed == std::vector{sill});
     CHECK(volume_m3(out.solid) == doctest::Approx(480 - 2 * 2 * 0.2).epsilon(1e-6));
-    for (const FeatureOutcome& one : feature_outcomes(plan, out, line.table(), line.interpretation))
-      CHECK(one.outcome == (one.feature == line.table().id(sill) ? "went along" : "changed"));
+    for (const FeatureOutcome& one :
+         feature_outcomes(plan, out, line.table(), line.interpretation)) {
+      const bool is_sill = one.feature == line.table().id(sill);
+      CHECK(one.outcome == (is_sill ? "went along" : "changed"));
+      CHECK(one.reason == (is_sill ? "went along with " + line.table().id(window) : ""));
+      CHECK(one.operation == "enlarge");
+    }
 
     plan.steps[0].numbers["gap"] = 9;
     const auto refused = carried(line, plan);
