@@ -6,6 +6,7 @@
 #include "generalise/removal/facets.h"
 #include "generalise/tasks.h"
 #include "kernel/geometry/boxes.h"
+#include "kernel/geometry/directions.h"
 
 #include <algorithm>
 #include <functional>

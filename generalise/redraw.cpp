@@ -1,6 +1,7 @@
 #include "generalise/generalise.h"
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/vec3.h"

@@ -3,6 +3,7 @@
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"

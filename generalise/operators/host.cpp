@@ -3,6 +3,7 @@
 #include "kernel/attach/clearance.h"
 #include "kernel/attach/move_facet.h"
 #include "kernel/base/index.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -181,7 +182,7 @@ Placed place_across(const Solid& solid, const BlockAcross& block, const Clearanc
 
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
                  const Clearance& clearance, const std::vector<int>& polygons) {
-  const bool is_wall = std::abs(host.n.z) < kWall;
+  const bool is_wall = looks_aside(host.n);
   const Vec3 up = is_wall ? kUp : up_the_roof(solid, host);
   const auto point = [&](double u, double v) {
     return u * host.u + v * host.v + host.plane.offset_m * host.n;
@@ -254,7 +255,7 @@ std::optional<double> box_depth(const Host& host, const Feature& feature, const 
     return feature.new_area_m2 >= kBoxShare * area_m2 ? std::optional(0.0) : std::nullopt;
   if (is_box(feature, extents)) return extents.depth();
   if (feature.sense != Sense::hole || feature.volume_m3 <= 0 || area_m2 <= 0 ||
-      std::abs(host.n.z) >= kWall)
+      !looks_aside(host.n))
     return std::nullopt;
   return feature.volume_m3 / area_m2;
 }

@@ -23,8 +23,6 @@ struct Host {
   Vec3 u, v, n;
 };
 
-/// Facets that lean less than this (sine) from the vertical are walls: 15 degrees.
-inline constexpr double kWall = 0.26;
 /// What is this close to an edge lies or stands on it.
 inline constexpr double kOnEdge_m = 0.002;
 

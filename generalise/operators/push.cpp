@@ -1,6 +1,7 @@
 #include "generalise/operators/push.h"
 
 #include "generalise/operators/facade.h"
+#include "kernel/geometry/directions.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,7 @@ namespace {
 
 /// The axes of a wall; its facet is not looked for.
 std::optional<Host> wall_axes(const Plane& plane) {
-  if (std::abs(plane.normal.z) >= kWall) return std::nullopt;
+  if (!looks_aside(plane.normal)) return std::nullopt;
   Host host{{}, plane, normalised(cross({0, 0, 1}, plane.normal)), {}, plane.normal};
   host.v = cross(host.n, host.u);
   return host;

@@ -2,21 +2,11 @@
 
 #include "kernel/model/solid.h"
 
-#include <cmath>
 #include <functional>
-#include <numbers>
 #include <span>
 #include <vector>
 
 namespace oriel::detail {
-
-/// What is steeper is a wall: 75 degrees, the default pack's steepest roof.
-inline const double kSteepestRoof = std::cos(75 * std::numbers::pi / 180);
-
-/// A roof, by the slope of its facet alone.
-inline bool looks_up(Vec3 normal) { return normal.z > kSteepestRoof; }
-/// A ground or ceiling, likewise.
-inline bool looks_down(Vec3 normal) { return normal.z < -kSteepestRoof; }
 
 /// Calls `visit(facet, from, to)` with each directed edge of each facet.
 void for_each_edge(const Solid& solid, const std::function<void(int, int, int)>& visit);

@@ -1,10 +1,9 @@
 #include "interpret/surfaces/polygon_shape.h"
 
+#include "kernel/geometry/directions.h"
 #include "kernel/model/vec3.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace oriel::rules {
 
@@ -22,9 +21,7 @@ Vec3 area_vector(const Building& building, const Polygon& polygon) {
 }
 
 double inclination_deg(Vec3 direction) {
-  if (direction == Vec3{}) return 90;
-  const double across = std::hypot(direction.x, direction.y);
-  return std::atan2(across, direction.z) * 180 / std::numbers::pi;
+  return direction == Vec3{} ? 90 : detail::inclination_deg(direction);
 }
 
 Box box_of(const Building& building, const Polygon& polygon) {

@@ -6,6 +6,7 @@
 #include "kernel/describe/features/relations.h"
 #include "kernel/describe/features/shape.h"
 #include "kernel/describe/features/site.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
@@ -20,7 +21,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -171,8 +171,7 @@ void describe_size(FeatureTable& table, const DescribedFeature& s) {
   const double inclination = detail::inclination_deg(*s.normal);
   table.set(s.id, Attribute::inclination, inclination);
   if (is_level(inclination)) return;
-  const double azimuth = std::atan2(s.normal->x, s.normal->y) * 180 / std::numbers::pi;
-  table.set(s.id, Attribute::azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
+  table.set(s.id, Attribute::azimuth, detail::azimuth_deg(*s.normal));
 }
 
 /// How far cells reach, each direction of a cell measured once.

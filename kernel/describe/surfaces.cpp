@@ -4,12 +4,12 @@
 #include "kernel/describe/features/shape.h"
 #include "kernel/describe/surfaces/surface_faces.h"
 #include "kernel/describe/surfaces/vertical_lines.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/model/polygon_owners.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -149,8 +149,7 @@ void SurfaceSurvey::State::describe(std::size_t row) {
   const double inclination = detail::inclination_deg(normal);
   table.set(row, SurfaceAttribute::inclination, inclination);
   if (std::min(inclination, 180 - inclination) <= kLevel_deg) return;
-  const double azimuth = std::atan2(normal.x, normal.y) * 180 / std::numbers::pi;
-  table.set(row, SurfaceAttribute::azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
+  table.set(row, SurfaceAttribute::azimuth, detail::azimuth_deg(normal));
 }
 
 void SurfaceSurvey::State::measure_sides(std::size_t row) {

@@ -1,5 +1,6 @@
 #include "kernel/neighbours/standing_building.h"
 
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/shared_area.h"
 #include "kernel/model/tolerances.h"
@@ -19,8 +20,6 @@ using detail::Outline;
 constexpr Vec3 kUpwards{0, 0, 1};
 /// What is smaller does not make a contact of kContact_m2 even with a few of its like.
 constexpr double kLeastWall_m2 = 0.05;
-/// Of ground and roofs: the default pack's steepest roof, 75 degrees.
-constexpr double kSteepRoof = 0.2588;
 /// As kernel/blocks has it.
 constexpr double kGroundOver_m = 0.5;
 
@@ -159,7 +158,7 @@ StandingBuilding standing_building(const Building& building) {
       if (length(area) >= kLeastWall_m2) out.walls.push_back({std::move(outlines), normal, {}});
       continue;
     }
-    if (std::abs(normal.z) < kSteepRoof) continue;
+    if (detail::looks_aside(normal)) continue;
     GentlePolygon flat;
     for (const Vec3 p : outlines[0]) flat.mean_m += p.z / static_cast<double>(outlines[0].size());
     flat.looks_up = normal.z > 0;

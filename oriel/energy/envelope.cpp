@@ -3,6 +3,7 @@
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/index.h"
 #include "kernel/describe/surfaces.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "oriel/energy.h"
 #include "oriel/energy/roof_form.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -22,8 +22,6 @@ namespace {
 
 /// Within this of level a normal has no azimuth, as in the tables of features and surfaces.
 constexpr double kLevel_deg = 1;
-/// A face without a name of its own is a wall from here to there, as in the default pack.
-constexpr double kSteepest_deg = 75, kOverhang_deg = 105;
 /// An opening lies in a face whose plane is no further off and no more turned than this; planes of
 /// the body that is left are those of the building, but for what a cut rounds.
 constexpr double kInPlane_m = 0.02;
@@ -31,28 +29,22 @@ constexpr double kInPlane_cos = 0.9998;
 
 /// Storeys are 2.4 m high at the least, rooms of 2.2 m under a slab; sills vary within a storey.
 constexpr double kLeastStorey_m = 2.2;
-/// Openings in walls, which lean by less than 15 degrees.
-constexpr double kWallLean_cos = 0.2588;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
-
-double inclination_of(Vec3 normal) { return std::acos(std::clamp(normal.z, -1.0, 1.0)) * kDegrees; }
 
 std::optional<double> azimuth_of(Vec3 normal) {
-  const double inclination = inclination_of(normal);
-  if (inclination < kLevel_deg || inclination > 180 - kLevel_deg) return std::nullopt;
-  const double azimuth = std::atan2(normal.x, normal.y) * kDegrees;
-  return azimuth < 0 ? azimuth + 360 : azimuth;
+  const double inclination = detail::inclination_deg(normal);
+  if (std::min(inclination, 180 - inclination) <= kLevel_deg) return std::nullopt;
+  return detail::azimuth_deg(normal);
 }
 
-EnvelopeKind kind_of(const std::string& type, double inclination_deg) {
+/// One without a name of its own is told by its slope.
+EnvelopeKind kind_of(const std::string& type, Vec3 normal) {
   if (type == "WallSurface") return EnvelopeKind::wall;
   if (type == "RoofSurface") return EnvelopeKind::roof;
   if (type == "GroundSurface") return EnvelopeKind::ground;
   if (type == "OuterCeilingSurface") return EnvelopeKind::ceiling;
   if (type == "OuterFloorSurface") return EnvelopeKind::floor;
-  if (inclination_deg <= kSteepest_deg) return EnvelopeKind::roof;
-  return inclination_deg <= kOverhang_deg ? EnvelopeKind::wall : EnvelopeKind::ceiling;
+  if (detail::looks_up(normal)) return EnvelopeKind::roof;
+  return detail::looks_down(normal) ? EnvelopeKind::ceiling : EnvelopeKind::wall;
 }
 
 /// Builds the envelope of one building that has a body.
@@ -91,7 +83,7 @@ class EnvelopeSurvey {
       const Feature& of = feature(id);
       if (of.planes.empty()) continue;
       const Vec3 normal = segmentation_.planes[of.planes.front().index()].normal;
-      if (std::abs(normal.z) <= kWallLean_cos) sills.push_back(of.box.min.z);
+      if (detail::looks_aside(normal)) sills.push_back(of.box.min.z);
     }
     if (sills.empty()) return std::nullopt;
     std::ranges::sort(sills);
@@ -156,12 +148,12 @@ class EnvelopeSurvey {
       const Facet& facet = body_.facets[at(i)];
       if (is_of_staying(facet)) continue;
       const Plane& plane = body_.planes[facet.plane.index()];
-      const EnvelopeKind kind = kind_of(names[at(i)].type, inclination_of(plane.normal));
+      const EnvelopeKind kind = kind_of(names[at(i)].type, plane.normal);
       if (kind == EnvelopeKind::roof) roof.push_back(FacetId{i});
       const auto [place, is_new] = face_of.try_emplace({kind, facet.plane}, out.faces.size());
       if (is_new) {
-        out.faces.push_back({kind, plane.normal, plane.offset_m, inclination_of(plane.normal),
-                             azimuth_of(plane.normal)});
+        out.faces.push_back({kind, plane.normal, plane.offset_m,
+                             detail::inclination_deg(plane.normal), azimuth_of(plane.normal)});
         facets_of_.emplace_back();
       }
       add_facet(facet, plane.normal, out.faces[place->second]);

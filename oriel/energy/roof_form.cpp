@@ -1,11 +1,11 @@
 #include "oriel/energy/roof_form.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/directions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 namespace oriel {
@@ -21,8 +21,6 @@ constexpr double kLeastShare = 0.1;
 constexpr double kSameWay_deg = 15;
 /// Two slopes one over the other make a mansard from this difference on.
 constexpr double kBreak_deg = 15;
-
-constexpr double kDegreeOfSlope = std::numbers::pi / 180;
 
 struct RoofFace {
   FacetId facet;
@@ -77,7 +75,7 @@ bool has_valley(const Solid& solid, const std::vector<RoofFace>& faces) {
     const Vec3 b = solid.planes[solid.facets[other->second.index()].plane.index()].normal;
     const Vec3 along = solid.vertices[at(edge.second)].point - solid.vertices[at(edge.first)].point;
     // The interior of a facet is to the left of its edges.
-    if (dot(cross(a, b), along) < 0 && dot(a, b) < std::cos(kSameWay_deg * kDegreeOfSlope))
+    if (dot(cross(a, b), along) < 0 && dot(a, b) < std::cos(kSameWay_deg * detail::kDegree_rad))
       return true;
   }
   return false;
@@ -116,9 +114,8 @@ RoofForm roof_form_of(const Solid& solid, const std::vector<FacetId>& roof) {
     const Facet& facet = solid.facets[id.index()];
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     RoofFace face{id, area_m2(solid.vertices, facet, normal)};
-    face.slope_deg = std::acos(std::clamp(normal.z, -1.0, 1.0)) / kDegreeOfSlope;
-    face.azimuth_deg = std::atan2(normal.x, normal.y) / kDegreeOfSlope;
-    if (face.azimuth_deg < 0) face.azimuth_deg += 360;
+    face.slope_deg = detail::inclination_deg(normal);
+    face.azimuth_deg = detail::azimuth_deg(normal);
     all_m2 += face.area_m2;
     if (face.slope_deg <= kFlat_deg)
       flat_m2 += face.area_m2;

@@ -1,12 +1,12 @@
 #include "oriel/pipeline/outlook.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/model/description/surface_table.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,8 +21,6 @@ using detail::Outline;
 constexpr double kWallFrom_deg = 85, kWallTo_deg = 95;
 /// From this share on what lies against others is a party wall.
 constexpr double kPartyShare = 0.5;
-
-constexpr double kRadian = std::numbers::pi / 180;
 
 /// What is known of a figure on a wall.
 struct WallOutlook {
@@ -63,7 +61,7 @@ Outline rectangle_of(const Segmentation& segmentation, const Feature& feature, c
 
 /// Outward, as the table says it.
 Vec3 normal_of(double inclination_deg, double azimuth_deg) {
-  const double i = inclination_deg * kRadian, a = azimuth_deg * kRadian;
+  const double i = inclination_deg * detail::kDegree_rad, a = azimuth_deg * detail::kDegree_rad;
   return {std::sin(i) * std::sin(a), std::sin(i) * std::cos(a), std::cos(i)};
 }
 
@@ -110,7 +108,8 @@ void describe_outlook_of_features(const Segmentation& segmentation, const LabelO
     const Plane& plane = segmentation.planes[feature.planes.front().index()];
     const Outline rectangle = rectangle_of(segmentation, feature, plane);
     WallOutlook of;
-    const bool is_upright = std::abs(plane.normal.z) <= std::cos(kWallFrom_deg * kRadian);
+    const bool is_upright =
+        std::abs(plane.normal.z) <= std::cos(kWallFrom_deg * detail::kDegree_rad);
     if (is_upright)
       of.exposed = 1 - result.surroundings->covered_share(std::span(&rectangle, 1), plane.normal);
     of.outlook = options.neighbours->outlook(*result.surroundings,

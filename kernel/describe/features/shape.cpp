@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <utility>
 
@@ -153,10 +152,6 @@ std::vector<std::vector<Vec3>> outlines_of(const Segmentation& segmentation,
                                            const CellFacet& facet) {
   return outlines_of(segmentation.vertices,
                      segmentation.cells[facet.cell.index()].facets[at(facet.facet)].loops);
-}
-
-double inclination_deg(Vec3 normal) {
-  return std::atan2(std::hypot(normal.x, normal.y), normal.z) * 180 / std::numbers::pi;
 }
 
 }  // namespace oriel::detail

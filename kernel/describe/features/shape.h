@@ -42,8 +42,4 @@ std::vector<Vec3> points_of(const Segmentation& segmentation, const Cell& cell);
 std::vector<std::vector<Vec3>> outlines_of(const Segmentation& segmentation,
                                            const CellFacet& facet);
 
-/// The angle of a facet's normal from straight up, in degrees: 0 faces up, 90 is a wall, 180 faces
-/// down.
-double inclination_deg(Vec3 normal);
-
 }  // namespace oriel::detail

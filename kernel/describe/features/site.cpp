@@ -1,5 +1,6 @@
 #include "kernel/describe/features/site.h"
 
+#include "kernel/geometry/directions.h"
 #include "kernel/geometry/planar.h"
 
 #include <algorithm>

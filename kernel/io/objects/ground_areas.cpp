@@ -1,6 +1,7 @@
 #include "kernel/io/objects/ground_areas.h"
 
 #include "kernel/base/issue.h"
+#include "kernel/geometry/directions.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/json_check.h"
 #include "kernel/io/json/text.h"
@@ -23,8 +24,6 @@ constexpr std::array<std::string_view, 7> kTypes{
     "Road", "Railway", "TransportSquare", "Waterway", "WaterBody", "LandUse", "PlantCover"};
 /// Of a line that does not say how wide it is.
 constexpr double kThinnest_m = 0.1;
-/// The default pack's steepest roof: what is steeper lies over no ground.
-constexpr double kSteepGround = 0.2588;
 
 double doubled_area_m2(const std::vector<Vec3>& ring) {
   double sum = 0;
@@ -167,7 +166,8 @@ class AreaReader {
                           translate_.z + scale_.z * p.z});
       }
     }
-    if (area[0].size() < 3 || std::abs(normalised(area_vector(area[0])).z) < kSteepGround) return;
+    // What is as steep as a wall lies over no ground.
+    if (area[0].size() < 3 || detail::looks_aside(normalised(area_vector(area[0])))) return;
     add(std::move(area));
   }
 
