@@ -20,8 +20,6 @@ using detail::Outline;
 /// Openings are on one facade if their walls look the same way to 2 degrees and lie no further
 /// apart than this: frames stand before the wall, panes behind it.
 constexpr double kSameWay_cos = 0.9994, kSamePlane_m = 0.3;
-/// A gap that is as wide as it should be may be less by what rounding takes.
-constexpr double kRoundedGap_m = 1e-4;
 
 /// A polygon that is written, its outer ring.
 struct WrittenPolygon {
@@ -238,7 +236,7 @@ OpeningGaps opening_gaps(const std::vector<WrittenOpening>& openings, double lea
       for (std::size_t k = i + 1; k < facade.size(); ++k) {
         const double gap = gap_m(*facade[i], *facade[k]);
         gaps.smallest_m = std::min(gaps.smallest_m, gap);
-        if (gap < least_m - kRoundedGap_m) ++gaps.narrow;
+        if (gap < least_m - kRoundedOff_m) ++gaps.narrow;
       }
   return gaps;
 }

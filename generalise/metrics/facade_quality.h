@@ -52,6 +52,11 @@ inline constexpr double kAligned_m = 0.02;
 /// Based on User Perception" (alignment, distribution and shape); the numbers are our own.
 FacadeQuality facade_quality(const std::vector<WrittenOpening>& openings);
 
+/// A length that is as it should be may be less by what rounding takes: corners are put on a grid
+/// of a thousandth of a millimetre, and where planes meet at small angles they move by some hundred
+/// times that.
+inline constexpr double kRoundedOff_m = 1e-4;
+
 /// The gaps between openings of one facade that stand beside each other or one above the other: the
 /// smallest, and how many are below `least_m`.
 struct OpeningGaps {

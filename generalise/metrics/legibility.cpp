@@ -10,9 +10,6 @@ namespace oriel {
 
 namespace {
 
-/// Lengths that are as they should be may be less by what rounding takes.
-constexpr double kRoundedOff_m = 1e-4;
-
 void add_length(double length_m, double least_m, std::optional<double>& smallest, int& small) {
   if (!smallest || length_m < *smallest) smallest = length_m;
   if (length_m < least_m - kRoundedOff_m) ++small;

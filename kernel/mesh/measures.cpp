@@ -177,8 +177,9 @@ double hausdorff_m(const Mesh& a, const Mesh& b, double error_m) {
 
 namespace {
 
-/// Facets are in one plane if no corner of either is further off that of the other, seen along its
-/// normal; and what is left of a facet that others cover is nowhere as wide as a millimetre.
+/// A facet is in the plane of another one if none of its corners is further off: far more than the
+/// grid of solids rounds by, far less than distances are measured to. What may be left of a facet
+/// that others cover is a square millimetre, no disc of which is wider than that.
 constexpr double kSamePlane_m = 1e-4, kUncovered_m2 = 1e-6;
 
 /// A facet of a solid with what tells whether another one lies in it.
