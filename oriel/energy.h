@@ -80,10 +80,14 @@ struct BuildingEnergy {
 };
 
 struct EnergyOptions {
-  /// Classes of the pack whose features are no part of the heated body; others of them do not
-  /// matter.
+  /// Classes of the pack whose features are no part of the heated body; those that it does not have
+  /// do not matter.
   std::vector<std::string> unheated{"balcony", "canopy", "chimney", "stairs", "vent"};
 };
+
+/// "the pack has no class 'balkony'; did you mean 'balcony'?", of the first such name in
+/// EnergyOptions::unheated that is neither empty nor one of the default; else empty.
+std::string unknown_class(const RuleBase& rules, const EnergyOptions& energy);
 
 /// The envelope of a building and what is counted in it (docs/energy.md defines each number).
 ///

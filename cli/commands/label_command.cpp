@@ -251,6 +251,7 @@ ExitCode work(LabelArguments& arguments) {
   if (arguments.is_json) throw CLI::ValidationError("--json", "works only with --existing audit");
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
+  check_unheated(arguments.energy, *rules);
   arguments.seeks_features = rules->rule_count() > 0;
   arguments.gives_only_features = arguments.out.empty();
   ExitCode code = ExitCode::clean;

@@ -50,6 +50,13 @@ void add_energy_arguments(CLI::App& command, EnergyArguments& arguments) {
       ->check(one_of({"energy"}));
 }
 
+void check_unheated(const EnergyArguments& arguments, const RuleBase& rules) {
+  if (!arguments.has_any() && arguments.energy.unheated != EnergyOptions{}.unheated)
+    throw CLI::ValidationError("--unheated", "needs --table or --extension");
+  if (const auto unknown = unknown_class(rules, arguments.energy); !unknown.empty())
+    throw CLI::ValidationError("--unheated", unknown);
+}
+
 EnergyTables::EnergyTables(const EnergyArguments& arguments, bool is_safe)
     : energy_(arguments.energy), is_safe_(is_safe) {
   tables_[1].kind = EnergyTable::envelope;

@@ -29,6 +29,10 @@ struct EnergyArguments {
 /// Adds `--table NAME[=FILE]`, `--unheated CLASSES` and `--extension energy`.
 void add_energy_arguments(CLI::App& command, EnergyArguments& arguments);
 
+/// Throws CLI::ValidationError for classes in --unheated that the pack does not have, and where
+/// nothing is written that they matter to.
+void check_unheated(const EnergyArguments& arguments, const RuleBase& rules);
+
 /// The files of --table; each appears when all inputs are done.
 class EnergyTables {
  public:

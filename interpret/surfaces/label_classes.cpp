@@ -24,4 +24,10 @@ bool is_of_class(const RuleBase& base, std::string_view label, std::string_view 
   }
 }
 
+std::vector<std::string> class_names(const RuleBase& base) {
+  std::vector<std::string> names;
+  for (const rules::Class& c : base.pack().classes) names.push_back(c.name);
+  return names;
+}
+
 }  // namespace oriel

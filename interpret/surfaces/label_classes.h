@@ -2,7 +2,9 @@
 
 #include "interpret/pack/rule_base.h"
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace oriel {
 
@@ -14,5 +16,8 @@ LabelledAs labelled_as(const RuleBase& base, std::string_view label);
 
 /// The label is that class of the pack, or one below it.
 bool is_of_class(const RuleBase& base, std::string_view label, std::string_view name);
+
+/// What is_of_class() knows, abstract classes among them, in the order of the pack.
+std::vector<std::string> class_names(const RuleBase& base);
 
 }  // namespace oriel

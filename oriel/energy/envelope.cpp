@@ -1,7 +1,9 @@
 #include "generalise/generalise.h"
+#include "interpret/language/suggest.h"
 #include "interpret/surfaces/label_classes.h"
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/index.h"
+#include "kernel/base/printable.h"
 #include "kernel/describe/surfaces.h"
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
@@ -15,6 +17,8 @@
 #include <span>
 #include <tuple>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel {
 
@@ -297,6 +301,15 @@ BuildingEnergy energy_of(const Building& building, const PipelineResult& result,
   out.storeys = envelope.storeys_of_openings();
   if (out.storeys) out.storeys_source = "openings";
   return out;
+}
+
+std::string unknown_class(const RuleBase& rules, const EnergyOptions& energy) {
+  const std::vector<std::string> known = class_names(rules), usual = EnergyOptions{}.unheated;
+  for (const std::string& name : energy.unheated)
+    if (!name.empty() && !rules::contains(known, name) && !rules::contains(usual, name))
+      return fmt::format("the pack has no class '{}'{}", printable(name),
+                         rules::did_you_mean(name, known));
+  return {};
 }
 
 std::string_view to_string(EnvelopeKind kind) {

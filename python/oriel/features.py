@@ -135,7 +135,7 @@ def energy(results: Union[Result, Iterable[Result]], table: str = "energy", *,
     table: "energy" (buildings) or "envelope" (faces); docs/energy.md has the columns.
     unheated: classes whose features are no part of the heated body.
 
-    Raises ValueError for another table, and for results without labels.
+    Raises ValueError for another table, for results without labels, and for a class that their pack does not have.
     """
     if table not in ("energy", "envelope"):
         raise ValueError(f"there is no table '{table}': energy, envelope")

@@ -66,6 +66,8 @@ std::string energy_text(const Results& results, const std::string& table,
   std::string text = "[";
   for (const auto& one : results) {
     if (!one->rules()) throw py::value_error("energy needs labels: the results of label()");
+    if (const auto unknown = unknown_class(*one->rules(), {unheated}); !unknown.empty())
+      throw py::value_error(unknown);
     const Document& document = one->of().document();
     auto stated = storeys.find(&document);
     if (stated == storeys.end())

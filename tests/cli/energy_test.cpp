@@ -122,7 +122,8 @@ TEST_SUITE("cli") {
           Words{"--table", "energy", "--table", "envelope"}, Words{"--table", "energy=x.txt"},
           Words{"--table", "energy", "-o", "-"}, Words{"--extension", "energy"},
           Words{"--extension", "noise"}, Words{"--extension", "energy", "-o", folder / "out.gml"},
-          Words{"--table", "energy", "--existing", "audit"}}) {
+          Words{"--table", "energy", "--existing", "audit"},
+          Words{"--table", "energy", "--unheated", "balkony"}, Words{"--unheated", "balcony"}}) {
       Words words{"label", in};
       words.insert(words.end(), more.begin(), more.end());
       CAPTURE(more);

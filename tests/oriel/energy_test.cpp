@@ -217,6 +217,16 @@ TEST_SUITE("oriel") {
     CHECK(row["roof_form"].is_null());
   }
 
+  TEST_CASE("a class that the pack does not have is no unheated part") {
+    EnergyOptions energy;
+    CHECK(unknown_class(pack(), energy).empty());
+    energy.unheated = {""};
+    CHECK(unknown_class(pack(), energy).empty());
+    energy.unheated = {"dormer", "balkony"};
+    CHECK(unknown_class(pack(), energy) ==
+          "the pack has no class 'balkony'; did you mean 'balcony'?");
+  }
+
   TEST_CASE("eight directions divide the circle") {
     CHECK(direction_of(0) == Direction::n);
     CHECK(direction_of(22.4) == Direction::n);

@@ -28,6 +28,8 @@ class FeaturesTest(FolderTest):
             oriel.energy(labelled, "heat")
         with self.assertRaises(ValueError):
             oriel.energy(oriel.segment(HOUSE))
+        with self.assertRaisesRegex(ValueError, "did you mean 'balcony'"):
+            oriel.energy(labelled, unheated=["balkony"])
 
     def compare_column(self, rows, name, column):
         if column.dtype.kind == "U":
