@@ -253,7 +253,7 @@ ExitCode work(LabelArguments& arguments) {
   if (!rules) return ExitCode::rules;
   check_unheated(arguments.energy, *rules);
   arguments.seeks_features = rules->rule_count() > 0;
-  arguments.gives_only_features = arguments.out.empty();
+  arguments.gives_only_features = arguments.out.empty() && arguments.energy.tables.empty();
   ExitCode code = ExitCode::clean;
   arguments.corrections = load_corrections(arguments.corrections_file, *rules, report, code);
   find_neighbours(arguments, report);

@@ -44,6 +44,14 @@ TEST_SUITE("cli") {
     CHECK(json::parse(bytes_of(folder / "f1.json")).size() == 18);
   }
 
+  TEST_CASE("a block without parts has its envelope in the table, which counts as success") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
+    const Outcome made = run({"label", in, "--table", "envelope"});
+    CHECK(made.exit == 0);
+    CHECK(lines_of(made.out).size() == 7);
+  }
+
   TEST_CASE("storeys are those that the input states") {
     const Folder folder;
     json city = json::parse(cubes({"a", "b"}).dump());
