@@ -16,6 +16,11 @@
 #include "oriel/repair.h"
 #include "oriel/score.h"
 
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -105,6 +110,9 @@ ExitCode audit(const LabelArguments& arguments) {
   return graver(code, score.differences.empty() ? ExitCode::clean : ExitCode::set_aside);
 }
 
+/// The count of buildings that came to the end without a body to measure.
+constexpr const char* kUnmeasured = "unmeasured";
+
 class Labeller final : public ProducingCommand {
  public:
   Labeller(const LabelArguments& arguments, const RuleBase& rules, BatchRunner& runner)
@@ -176,6 +184,17 @@ class Labeller final : public ProducingCommand {
   /// The buildings that were read.
   [[nodiscard]] const std::set<std::string>& buildings() const { return buildings_; }
 
+  std::map<std::string, int>* counts() override {
+    return runner_.is_last_run() ? &counts_ : nullptr;
+  }
+
+  /// Of --table and --extension.
+  [[nodiscard]] std::optional<Issue> unmeasured() const {
+    const auto found = counts_.find(kUnmeasured);
+    if (found == counts_.end()) return std::nullopt;
+    return nothing_measured(found->second);
+  }
+
   /// Of all that was labelled.
   [[nodiscard]] std::vector<Issue> untyped() const {
     return outputs_.untyped(runner_.state().labels);
@@ -222,6 +241,7 @@ class Labeller final : public ProducingCommand {
       now_at_building(i);
       all.push_back(tables_.energy(document.buildings[i], results[i], rules_, options, storeys[i]));
       tables_.make(all.back(), product);
+      if (results[i].is_done() && !all.back().is_known) ++product.counts[kUnmeasured];
     }
     return all;
   }
@@ -231,6 +251,8 @@ class Labeller final : public ProducingCommand {
   BatchRunner& runner_;
   LabelOutputs outputs_;
   EnergyTables tables_;
+  /// kUnmeasured.
+  std::map<std::string, int> counts_;
   /// With corrections.
   std::set<std::string> buildings_;
 };
@@ -262,6 +284,7 @@ ExitCode work(LabelArguments& arguments) {
   code = graver(code, runner.run(command));
   if (runner.was_done()) return code;
   if (const auto lacking = command.lacking_columns()) report.add(*lacking);
+  if (const auto unmeasured = command.unmeasured()) report.add(*unmeasured);
   // A run that goes on, or takes results, has not seen all buildings.
   if (arguments.corrections && !arguments.is_resumable && arguments.reuse.empty()) {
     const auto unknown = arguments.corrections->unknown_buildings(command.buildings());

@@ -2,6 +2,7 @@
 
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/option_values.h"
+#include "kernel/base/counted.h"
 #include "kernel/io/records/feature_records.h"
 
 #include <algorithm>
@@ -55,6 +56,17 @@ void check_unheated(const EnergyArguments& arguments, const RuleBase& rules) {
     throw CLI::ValidationError("--unheated", "needs --table or --extension");
   if (const auto unknown = unknown_class(rules, arguments.energy); !unknown.empty())
     throw CLI::ValidationError("--unheated", unknown);
+}
+
+Issue nothing_measured(int buildings) {
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E134;
+  issue.sentence =
+      fmt::format("{} {} no closed solid to measure: --table has only {}, --extension nothing",
+                  counted(buildings, "building"), agreeing(buildings, "has", "have"),
+                  agreeing(buildings, "its id", "their ids"));
+  return issue;
 }
 
 EnergyTables::EnergyTables(const EnergyArguments& arguments, bool is_safe)

@@ -2,6 +2,7 @@
 
 #include "cli/batch/outcome.h"
 #include "cli/output/named_files.h"
+#include "kernel/base/issue.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/energy.h"
 
@@ -32,6 +33,9 @@ void add_energy_arguments(CLI::App& command, EnergyArguments& arguments);
 /// Throws CLI::ValidationError for classes in --unheated that the pack does not have, and where
 /// nothing is written that they matter to.
 void check_unheated(const EnergyArguments& arguments, const RuleBase& rules);
+
+/// A warning E134 of buildings that came to the end without a body to measure.
+Issue nothing_measured(int buildings);
 
 /// The files of --table; each appears when all inputs are done.
 class EnergyTables {

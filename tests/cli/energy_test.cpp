@@ -52,6 +52,24 @@ TEST_SUITE("cli") {
     CHECK(lines_of(made.out).size() == 7);
   }
 
+  TEST_CASE("a building without a closed solid has a row with its id and is warned about") {
+    const Folder folder;
+    auto city = cubes({"a", "open"});
+    auto& shell = city["CityObjects"]["open"]["geometry"][0]["boundaries"][0];
+    shell.erase(1);
+    shell.erase(1);
+    const std::string in = folder.write("in.city.json", city.dump());
+    const Outcome made = run({"label", in, "--table", "energy=" + (folder / "e.json")});
+    CHECK(made.exit == 0);
+    CHECK(made.err.find("E134 1 building has no closed solid to measure: --table has only its id, "
+                        "--extension nothing") != std::string::npos);
+    const json rows = json::parse(bytes_of(folder / "e.json"));
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0]["volume_m3"] == 64);
+    CHECK(rows[1]["building"] == "open");
+    CHECK(rows[1]["volume_m3"].is_null());
+  }
+
   TEST_CASE("storeys are those that the input states") {
     const Folder folder;
     json city = json::parse(cubes({"a", "b"}).dump());
