@@ -93,9 +93,9 @@ std::string unknown_class(const RuleBase& rules, const EnergyOptions& energy);
 ///
 /// The heated body is the building's solid without its openings, which are filled up to the plane
 /// of their wall, and without unheated parts, with what sits on them. `result` is what label() said
-/// of `building` with the same rules and options, with all attributes of features. Of a building
-/// without a body nothing is known. With PipelineResult::surroundings walls that lie against other
-/// buildings are told apart.
+/// of `building` with the same rules and options; of the attributes of features none is read. Of a
+/// building without a body nothing is known. With PipelineResult::surroundings walls that lie
+/// against other buildings are told apart.
 BuildingEnergy energy_of(const Building& building, const PipelineResult& result,
                          const RuleBase& rules, const PipelineOptions& options = {},
                          const EnergyOptions& energy = {});

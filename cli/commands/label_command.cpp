@@ -267,9 +267,11 @@ ExitCode work(LabelArguments& arguments) {
   if (arguments.is_repaired) arguments.crossings = "cut";
   arguments.joins_installations = !arguments.is_repaired;
   arguments.only_names_surfaces = true;
-  arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
+  // The listing has attributes, which measuring envelopes does not ask for.
+  const bool has_listing = arguments.out.empty() && arguments.energy.tables.empty();
+  arguments.only_labels_features = !has_listing && arguments.features.empty() &&
                                    !arguments.has_reasons && !arguments.is_repaired &&
-                                   !arguments.energy.has_any() && !arguments.writes_attributes();
+                                   !arguments.writes_attributes();
   if (arguments.is_json) throw CLI::ValidationError("--json", "works only with --existing audit");
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
