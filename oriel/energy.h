@@ -108,8 +108,9 @@ std::vector<std::optional<int>> stated_storeys(const Document& document);
 /// 2022) has for the geometry of buildings: the extension is declared where the text is a whole
 /// file or the header of a stream, and each building that something is known of gets its volume, a
 /// ThermalZone, a ThermalBoundary for each of its faces and a ThermalOpening for each opening
-/// (docs/energy.md#in-cityjson). What an earlier call wrote of these buildings is replaced, all
-/// else stays byte for byte. `text` must be one that write() made.
+/// (docs/energy.md#in-cityjson). What an earlier call wrote of these buildings is replaced, or
+/// goes if nothing is known of them now; all else stays byte for byte. `text` must be one that
+/// write() made.
 std::string with_energy_extension(const std::string& text, const std::vector<BuildingEnergy>& of);
 
 /// The tables that buildings and their envelopes are written in.

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,8 @@ using detail::RawNode;
 constexpr std::string_view kName = "Energy";
 constexpr std::string_view kDeclaration =
     R"({"url":"https://raw.githubusercontent.com/ozgetufan/cjenergy/master/schemas/extensions/energy.ext.json","version":"1.1"})";
+/// An attribute of buildings.
+constexpr std::string_view kVolume = "+energy-volume";
 
 std::string as_json(std::string_view text) {
   std::string out;
@@ -68,8 +71,12 @@ class ZoneWriter {
  public:
   explicit ZoneWriter(const BuildingEnergy& of) : of_(of), zone_(of.building + kZone.data()) {}
 
-  /// What the ids begin with.
-  static std::string prefix(const std::string& building) { return building + kZone.data(); }
+  /// The id of an object is that of a zone of some buildings, or begins with it.
+  static bool is_of_any(const std::string& id, const std::unordered_set<std::string>& buildings) {
+    for (std::size_t end = id.find(kZone); end != id.npos; end = id.find(kZone, end + 1))
+      if (buildings.contains(id.substr(0, end))) return true;
+    return false;
+  }
 
   EnergyObjects objects() {
     for (std::size_t i = 0; i < of_.faces.size(); ++i) {
@@ -134,17 +141,23 @@ bool has_type(const RawNode& object, std::string_view prefix) {
   return detail::decoded(object.value_of("type")).starts_with(prefix);
 }
 
-/// Takes out what an earlier call made of a building.
+/// Takes out what an earlier call made of some buildings.
 void erase_earlier(RawNode& objects, const std::vector<BuildingEnergy>& of) {
-  std::vector<std::string> prefixes;
-  for (const BuildingEnergy& one : of) prefixes.push_back(ZoneWriter::prefix(one.building));
+  std::unordered_set<std::string> buildings;
+  for (const BuildingEnergy& one : of) buildings.insert(one.building);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects.is_erased(i) || !RawNode::is_object(objects.value(i))) continue;
-    const std::string key = objects.key(i);
-    const bool is_ours = std::any_of(prefixes.begin(), prefixes.end(),
-                                     [&](const auto& prefix) { return key.starts_with(prefix); });
-    if (is_ours && has_type(RawNode(objects.value(i)), "+Energy-Thermal")) objects.erase(i);
+    if (ZoneWriter::is_of_any(objects.key(i), buildings) &&
+        has_type(RawNode(objects.value(i)), "+Energy-Thermal"))
+      objects.erase(i);
   }
+}
+
+/// Among some children; their number if it is not there.
+std::size_t place_of_child(const RawNode& children, const std::string& id) {
+  std::size_t i = 0;
+  while (i < children.size() && detail::decoded(children.value(i)) != id) ++i;
+  return i;
 }
 
 /// The building with its volume and its zone among its children.
@@ -152,15 +165,33 @@ std::string with_zone(std::string_view text, const BuildingEnergy& of, const std
   RawNode object(text);
   const std::string_view there = object.value_of("attributes");
   RawNode attributes(RawNode::is_object(there) ? there : "{}");
-  attributes.set("+energy-volume", gross_volume(of.volume_m3));
+  attributes.set(kVolume, gross_volume(of.volume_m3));
   object.set("attributes", attributes.text());
   const std::string_view ids = object.value_of("children");
   RawNode children(RawNode::is_array(ids) ? ids : "[]");
-  bool is_there = false;
-  for (std::size_t i = 0; i < children.size(); ++i)
-    is_there |= detail::decoded(children.value(i)) == zone;
-  if (!is_there) children.push_back(as_json(zone));
+  if (place_of_child(children, zone) == children.size()) children.push_back(as_json(zone));
   object.set("children", children.text());
+  return object.text();
+}
+
+/// The building without what with_zone() gave it.
+std::string without_zone(std::string_view text, const std::string& zone) {
+  RawNode object(text);
+  const std::string_view there = object.value_of("attributes"), ids = object.value_of("children");
+  if (RawNode::is_object(there)) {
+    RawNode attributes(there);
+    attributes.erase(kVolume);
+    object.set("attributes", attributes.text());
+  }
+  if (!RawNode::is_array(ids)) return object.text();
+  RawNode children(ids);
+  const std::size_t place = place_of_child(children, zone);
+  if (place == children.size()) return object.text();
+  children.erase(place);
+  if (children.size() > 1)
+    object.set("children", children.text());
+  else
+    object.erase("children");
   return object.text();
 }
 
@@ -186,8 +217,12 @@ std::string with_energy_extension(const std::string& text, const std::vector<Bui
       if (!objects.is_erased(i)) place_of.try_emplace(objects.key(i), i);
     for (const BuildingEnergy& one : of) {
       const auto place = place_of.find(one.building);
-      if (!one.is_known || place == place_of.end()) continue;
+      if (place == place_of.end()) continue;
       ZoneWriter writer(one);
+      if (!one.is_known) {
+        objects.set(place->second, without_zone(objects.value(place->second), writer.zone()));
+        continue;
+      }
       objects.set(place->second, with_zone(objects.value(place->second), one, writer.zone()));
       for (auto& [id, object] : writer.objects()) objects.append(id, std::move(object));
     }

@@ -227,6 +227,21 @@ TEST_SUITE("oriel") {
           "the pack has no class 'balkony'; did you mean 'balcony'?");
   }
 
+  TEST_CASE("the extension is taken from a building of which nothing is known any more") {
+    const std::string text =
+        R"({"type":"CityJSON","CityObjects":{"a":{"type":"Building","attributes":{"x":1}}}})";
+    BuildingEnergy of;
+    of.building = "a";
+    of.is_known = true;
+    of.faces.push_back({EnvelopeKind::roof, {0, 0, 1}, 4, 0, {}, 16});
+    const json known = json::parse(with_energy_extension(text, {of}));
+    CHECK(known["CityObjects"].size() == 3);
+    CHECK(known["CityObjects"]["a"]["children"].size() == 1);
+    of.is_known = false;
+    const json unknown = json::parse(with_energy_extension(known.dump(), {of}));
+    CHECK(unknown["CityObjects"] == json::parse(text)["CityObjects"]);
+  }
+
   TEST_CASE("eight directions divide the circle") {
     CHECK(direction_of(0) == Direction::n);
     CHECK(direction_of(22.4) == Direction::n);
