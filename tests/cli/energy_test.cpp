@@ -70,6 +70,29 @@ TEST_SUITE("cli") {
     CHECK(rows[1]["volume_m3"].is_null());
   }
 
+  TEST_CASE("the wall between two parts of a building is a party wall with --neighbours") {
+    const Folder folder;
+    auto city = cubes({"p", "q"});
+    for (std::size_t i = 8; i < 16; ++i)
+      city["vertices"][i][0] = city["vertices"][i][0].get<int>() - 6000;
+    for (const char* part : {"p", "q"}) {
+      city["CityObjects"][part]["type"] = "BuildingPart";
+      city["CityObjects"][part]["parents"] = {"b"};
+    }
+    city["CityObjects"]["b"] = {{"type", "Building"}, {"children", {"p", "q"}}};
+    const std::string in = folder.write("in.city.json", city.dump());
+    for (const bool knows : {false, true}) {
+      std::vector<std::string> words{"label", in, "--force", "--table",
+                                     "energy=" + (folder / "e.json")};
+      if (knows) words.emplace_back("--neighbours");
+      REQUIRE(run(words).exit == 0);
+      for (const json& row : json::parse(bytes_of(folder / "e.json"))) {
+        CHECK(row["wall_m2"] == (knows ? 48 : 64));
+        CHECK(row["party_wall_m2"] == (knows ? json(16) : json()));
+      }
+    }
+  }
+
   TEST_CASE("storeys are those that the input states") {
     const Folder folder;
     json city = json::parse(cubes({"a", "b"}).dump());
