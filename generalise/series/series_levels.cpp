@@ -163,9 +163,10 @@ class Levels {
     return input_.fault_of(*level.redrawn.labelled.geometry);
   }
 
-  /// What was carried out when the work was used up, if nothing that was gone is back.
+  /// What was carried out when the work was used up, if it is more than before.
   [[nodiscard]] SeriesLevel cut_short(const SeriesLevel& before, SeriesLevel level) const {
-    if (!is_setback(before, level) && !fault_of(level)) return level;
+    if (!is_setback(before, level) && !is_nothing_new(before, level) && !fault_of(level))
+      return level;
     return unchanged(before, std::move(level));
   }
 

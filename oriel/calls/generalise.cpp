@@ -23,10 +23,6 @@ namespace oriel {
 
 namespace {
 
-/// A repaired solid of more facets is drawn without its steps being judged: with all that lies
-/// within millimetres of each other in it, that takes minutes and helps little.
-constexpr std::size_t kIntricateFacets = 1000;
-
 /// False if there is an error: the building is rejected.
 bool keep(const std::vector<Issue>& issues, GeneralisedBuilding& out) {
   out.issues.insert(out.issues.end(), issues.begin(), issues.end());
@@ -194,7 +190,7 @@ void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& d
   auto repaired = repair_and_retry(document_, building_, result, rules_, options_, work);
   if (!repaired) return;
   const BuildingDrawer anew(document_, building_, rules_, targets_, options_, work);
-  const bool is_intricate = repaired->solid->facets.size() > kIntricateFacets;
+  const bool is_intricate = oriel::is_intricate(*repaired);
   GeneralisedBuilding again = measure(options_.observer, Stage::generalise, [&] {
     return anew.draw(*repaired, is_intricate ? Judging::none : Judging::refused);
   });

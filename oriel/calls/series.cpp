@@ -222,9 +222,9 @@ class SeriesDrawer {
     Invariants invariants = with_party_walls(invariants_of(profile_, rules_, scale), document_,
                                              *one.building, *one.result);
     invariants.work = one.work.get();
-    if (one.is_judged)
+    if (!one.is_repaired || !is_intricate(*one.result))
       invariants.validator =
-          counted(judge_as_written(document_, *one.building, solid, true), *one.work);
+          counted(judge_as_written(document_, *one.building, solid, one.is_judged), *one.work);
     return invariants;
   }
 

@@ -117,4 +117,6 @@ Issue stays_open(const Building& building) {
                         "is open and cannot be repaired: there is no solid to redraw");
 }
 
+bool is_intricate(const PipelineResult& repaired) { return repaired.solid->facets.size() > 1000; }
+
 }  // namespace oriel

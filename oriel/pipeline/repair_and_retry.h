@@ -26,6 +26,11 @@ std::optional<PipelineResult> repair_and_retry(const Document& document, const B
                                                const PipelineResult& result, const RuleBase& rules,
                                                const LabelOptions& options, Work& work);
 
+/// Whether what repair_and_retry() gives has so many facets that it is drawn without its steps
+/// being judged: with all that lies within millimetres of each other in it, that takes minutes and
+/// helps little.
+bool is_intricate(const PipelineResult& repaired);
+
 /// An open building once more in the whole pipeline, from the solid that repair() makes of it with
 /// the same options, and a warning G420 that says so, the last of its issues. `result`, is_open, is
 /// what came of it the first time. Nothing if there is no solid that is valid as it is written.
