@@ -14,11 +14,13 @@ namespace {
 constexpr double kBeside_m = 1000;
 
 /// Coordinates of another reference system lie somewhere else.
-void check_place(const KeptGround& kept, const NeighbourSearch& search, const std::string& file) {
-  Box all;
+void check_place(const std::vector<GroundArea>& areas, const NeighbourSearch& search,
+                 const std::string& file) {
+  Box its, all;
+  for (const GroundArea& area : areas)
+    for (const Vec3 p : area[0]) its.grow(p);
   for (const StandingBuilding& building : search.buildings())
     if (!building.box.is_empty()) all.grow(building.box.moved(building.origin_m));
-  const Box& its = kept.box();
   if (all.is_empty()) return;
   const bool is_there = its.min.x <= all.max.x + kBeside_m && all.min.x <= its.max.x + kBeside_m &&
                         its.min.y <= all.max.y + kBeside_m && all.min.y <= its.max.y + kBeside_m;
@@ -38,10 +40,12 @@ void check_place(const KeptGround& kept, const NeighbourSearch& search, const st
 std::shared_ptr<const KeptGround> read_kept_ground(const std::vector<std::string>& files,
                                                    const NeighbourSearch* search) {
   auto kept = std::make_shared<KeptGround>();
-  for (const std::string& file : files)
-    for (auto& area : read_ground_areas(file)) kept->add(std::move(area));
+  for (const std::string& file : files) {
+    std::vector<GroundArea> areas = read_ground_areas(file);
+    if (search != nullptr) check_place(areas, *search, file);
+    for (GroundArea& area : areas) kept->add(std::move(area));
+  }
   kept->finish();
-  if (search != nullptr && !kept->is_empty()) check_place(*kept, *search, files.front());
   return kept;
 }
 
