@@ -45,8 +45,8 @@ function(oriel_sanitized_test room test)
 endfunction()
 
 # oriel_of_threads: the command under the thread sanitizer, as far as it has what threads share: the commands that tests/tsan.sh
-# runs, the library, names and logs (base), the tables of attributes and relations, which the first thread that asks for them
-# makes (model), and rules, which all threads read. The other rooms keep nothing between two calls (tests/repository).
+# runs, the library, names and logs (base), and the tables of attributes and relations, which the first thread that asks for them
+# makes (model). The other rooms keep nothing between two calls, and what their threads share does not change (tests/repository).
 # Left out, for time, are the other commands (threads/other_commands.cpp) and what only they call.
 set(ORIEL_NOT_OF_THREADS
   "/cli/(view|completion|commands/rules)/" view_embedded tiles_page tiles_output
@@ -62,7 +62,7 @@ endfunction()
 function(oriel_command_of_threads)
   oriel_precompiled_headers(oriel_thread_headers ${ORIEL_THREAD_OPTIONS})
   set(objects "")
-  foreach(room base model interpret oriel)
+  foreach(room base model oriel)
     get_target_property(sources oriel_${room} SOURCES)
     oriel_leave_out_of_threads(sources)
     get_target_property(libraries oriel_${room} LINK_LIBRARIES)
