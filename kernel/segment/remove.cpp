@@ -7,6 +7,7 @@
 #include "kernel/segment/cuts/carve.h"
 #include "kernel/segment/cuts/feature_cut.h"
 #include "kernel/segment/cuts/patch.h"
+#include "kernel/segment/cuts/ring_cut.h"
 
 #include <algorithm>
 #include <optional>
@@ -48,6 +49,10 @@ class FeatureRemover {
     int lumps = 0;
     for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
     for (int lump = 0; lump < lumps; ++lump) bodies_.push_back(boundary_of(solid, lump, world_));
+    for (int f = 0; f < std::ssize(solid.facets); ++f)
+      for (const int polygon : solid.facets[at(f)].polygons)
+        facets_.emplace_back(polygon, FacetId{f});
+    std::ranges::sort(facets_);
   }
 
   Remainder run(const std::vector<FeatureId>& asked) {
@@ -83,6 +88,8 @@ class FeatureRemover {
   /// sits on it had gone: then all has to be done again without it.
   bool try_all() {
     go_ = spread(wanted_, segmentation_);
+    rings_.clear();
+    for (const Boundary& body : bodies_) rings_.emplace_back(body);
     for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
       const FeatureId id{i};
       if (!go_[at(i)] || goes_with_parent(id)) continue;
@@ -174,10 +181,15 @@ class FeatureRemover {
 
   std::optional<std::string> remove_by_section(const Feature& f, PlaneSide split) {
     // A protrusion is in front of its plane, a hole behind it.
-    const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
-    for (Boundary& body : bodies_) {
-      const auto cut = find_feature_cut(body, split >> 1, looks_along_class ? 1 : -1,
-                                        f.sense == Sense::protrusion, f.cap_point,
+    const bool is_material = f.sense == Sense::protrusion;
+    const int direction = ((split & 1) == 0) == is_material ? 1 : -1;
+    const std::vector<FacetId> sources = facets_of(f);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      Boundary& body = bodies_[b];
+      if (const auto caps =
+              rings_[b].find(body, split >> 1, direction, is_material, f.cap_point, sources))
+        return take(body, *caps, f);
+      const auto cut = find_feature_cut(body, split >> 1, direction, is_material, f.cap_point,
                                         {-1, options_.tolerances.weld_m, false, true});
       if (!cut) continue;
       const detail::Lump& lump = cut->lump;
@@ -188,6 +200,16 @@ class FeatureRemover {
       return take_on_trial(body, imprint(trial, cut->section, lump, touched), f);
     }
     return "its cut is no longer found";
+  }
+
+  /// The facets of the solid that its input polygons lie in.
+  [[nodiscard]] std::vector<FacetId> facets_of(const Feature& f) const {
+    std::vector<FacetId> facets;
+    for (const int polygon : f.source_polygons)
+      for (const auto& [its, facet] :
+           std::ranges::equal_range(facets_, polygon, {}, &std::pair<int, FacetId>::first))
+        facets.push_back(facet);
+    return facets;
   }
 
   std::optional<std::string> remove_by_patch(const Feature& f, std::vector<PlaneSide> sides) {
@@ -369,6 +391,8 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
+  std::vector<detail::RingCuts> rings_;          ///< by body
+  std::vector<std::pair<int, FacetId>> facets_;  ///< of the solid, by their polygons
   std::optional<Boundary> trial_;
   std::vector<char> wanted_;                         ///< by feature: asked for and not refused
   std::vector<char> go_;                             ///< by feature: wanted, or sits on what is
