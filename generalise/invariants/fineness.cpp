@@ -100,27 +100,37 @@ void find_owners(std::vector<ShortEdge>& edges, const Segmentation& segmentation
 class SolidCorners {
  public:
   explicit SolidCorners(const Solid& solid) {
+    std::vector<char> is_met(solid.vertices.size(), 0);
     for (const Facet& facet : solid.facets)
       for (const Loop& loop : facet.loops)
-        for (const int v : loop) points_.push_back(solid.vertices[at(v)].point);
-    std::ranges::sort(points_, {}, along);
+        for (const int v : loop)
+          if (std::exchange(is_met[at(v)], 1) == 0) {
+            const Vec3 p = solid.vertices[at(v)].point;
+            corners_.push_back({along(p), p});
+          }
+    std::ranges::sort(corners_, {}, &PlacedCorner::along);
   }
 
   [[nodiscard]] bool has(Vec3 p) const {
     constexpr double kReach_m = kOnBox_m + kRounding_m;
-    auto next = std::ranges::lower_bound(points_, along(p) - kReach_m, {}, along);
-    for (; next != points_.end() && along(*next) <= along(p) + kReach_m; ++next)
-      if (length(*next - p) <= kOnBox_m) return true;
+    const double place = along(p);
+    auto next = std::ranges::lower_bound(corners_, place - kReach_m, {}, &PlacedCorner::along);
+    for (; next != corners_.end() && next->along <= place + kReach_m; ++next)
+      if (length(next->point - p) <= kOnBox_m) return true;
     return false;
   }
 
  private:
+  struct PlacedCorner {
+    double along;
+    Vec3 point;
+  };
   static double along(Vec3 p) {
     constexpr Vec3 kAskew{0.48, 0.64, 0.6};  // of length 1
     return dot(kAskew, p);
   }
 
-  std::vector<Vec3> points_;
+  std::vector<PlacedCorner> corners_;
 };
 
 /// How far a feature reaches along a direction.

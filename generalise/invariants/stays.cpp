@@ -19,17 +19,25 @@ std::set<int> polygons_named(const Solid& solid) {
   return polygons;
 }
 
-/// The outline, if there is one, lies in the facet.
-bool lies_in(const Loop& outline, const Solid& solid, const Facet& facet,
-             const Segmentation& segmentation) {
-  if (outline.empty()) return false;
-  const Plane& plane = solid.planes[facet.plane.index()];
-  Box box;
-  for (const int v : facet.loops[0]) box.grow(solid.vertices[at(v)].point);
-  const Vec3 corner = segmentation.vertices[at(outline[0])].point;
-  return std::abs(dot(plane.normal, corner) - plane.offset_m) <= kOnBox_m &&
-         contains(box, corner, kOnBox_m);
-}
+/// A facet of a solid, to be asked for what lies in it.
+class FacetPlace {
+ public:
+  FacetPlace(const Solid& solid, const Facet& facet) : plane_(solid.planes[facet.plane.index()]) {
+    for (const int v : facet.loops[0]) box_.grow(solid.vertices[at(v)].point);
+  }
+
+  /// The outline, if there is one, lies in the facet.
+  [[nodiscard]] bool has(const Loop& outline, const Segmentation& segmentation) const {
+    if (outline.empty()) return false;
+    const Vec3 corner = segmentation.vertices[at(outline[0])].point;
+    return std::abs(dot(plane_.normal, corner) - plane_.offset_m) <= kOnBox_m &&
+           contains(box_, corner, kOnBox_m);
+  }
+
+ private:
+  const Plane& plane_;
+  Box box_;
+};
 
 }  // namespace
 
@@ -59,10 +67,12 @@ std::optional<std::string> why_it_stays(const Solid& left, const Facet& facet,
                                         const Segmentation& segmentation,
                                         const std::vector<FeatureId>& removed) {
   std::vector<int> others = facet.polygons;
+  const FacetPlace place(left, facet);
   for (int i = 0; i < std::ssize(segmentation.features); ++i) {
     if (std::ranges::binary_search(removed, FeatureId{i})) continue;
     const Feature& feature = segmentation.features[at(i)];
-    if (lies_in(feature.outline, left, facet, segmentation)) return "an outline is drawn in it";
+    if (place.has(feature.outline, segmentation)) return "an outline is drawn in it";
+    if (others.empty()) continue;
     std::erase_if(others, [&](int polygon) {
       return std::ranges::binary_search(feature.source_polygons, polygon);
     });
