@@ -2,6 +2,7 @@
 
 #include "kernel/attach/drop_facet.h"
 #include "kernel/base/index.h"
+#include "kernel/geometry/planar.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -33,6 +34,7 @@ class EdgeClearer {
   /// Drops one facet. False if none can go: then all edges are left, each with its reason.
   bool clear_one() {
     left_.clear();
+    list_edges();
     for (const ShortEdge& edge : short_) {
       std::string reason;
       if (clear(edge, reason)) return true;
@@ -54,17 +56,40 @@ class EdgeClearer {
     return false;
   }
 
+  /// An edge of a facet, its ends in either order.
+  struct FacetEdge {
+    Vec3 less, more;
+    FacetId facet;
+  };
+  static FacetEdge facet_edge(Vec3 p, Vec3 q, FacetId facet) {
+    return detail::is_lesser(q, p) ? FacetEdge{q, p, facet} : FacetEdge{p, q, facet};
+  }
+  static bool is_before(const FacetEdge& one, const FacetEdge& other) {
+    if (one.less != other.less) return detail::is_lesser(one.less, other.less);
+    return detail::is_lesser(one.more, other.more);
+  }
+
+  /// Lists the edges of the solid that are no longer than those that are too short.
+  void list_edges() {
+    double most_m = 0;
+    for (const ShortEdge& edge : short_) most_m = std::max(most_m, edge.length_m);
+    edges_.clear();
+    for (int f = 0; f < std::ssize(solid_.facets); ++f)
+      for (const Loop& loop : solid_.facets[at(f)].loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const Vec3 p = solid_.vertices[at(loop[i])].point;
+          const Vec3 q = solid_.vertices[at(loop[(i + 1) % loop.size()])].point;
+          if (length(q - p) <= most_m) edges_.push_back(facet_edge(p, q, FacetId{f}));
+        }
+    std::ranges::stable_sort(edges_, is_before);
+  }
+
   /// The facets beside the edge, the one with fewer corners first.
   [[nodiscard]] std::vector<FacetId> facets_at(const ShortEdge& edge) const {
     std::vector<FacetId> out;
-    const auto is_it = [&](int v, int w) {
-      const Vec3 p = solid_.vertices[at(v)].point, q = solid_.vertices[at(w)].point;
-      return (p == edge.from && q == edge.to) || (p == edge.to && q == edge.from);
-    };
-    for (int f = 0; f < std::ssize(solid_.facets); ++f)
-      for (const Loop& loop : solid_.facets[at(f)].loops)
-        for (std::size_t i = 0; i < loop.size(); ++i)
-          if (is_it(loop[i], loop[(i + 1) % loop.size()])) out.push_back(FacetId{f});
+    for (const FacetEdge& its :
+         std::ranges::equal_range(edges_, facet_edge(edge.from, edge.to, {}), is_before))
+      out.push_back(its.facet);
     const auto corners = [&](FacetId id) { return solid_.facets[id.index()].loops[0].size(); };
     std::ranges::stable_sort(out, {}, corners);
     return out;
@@ -97,6 +122,7 @@ class EdgeClearer {
   const SolidValidator& validator_;
   std::optional<Fitness> fitness_;  ///< of solid_
   std::vector<ShortEdge> short_;
+  std::vector<FacetEdge> edges_;  ///< of solid_, as long as those, sorted
   std::vector<UnclearedEdge> left_;
 };
 
