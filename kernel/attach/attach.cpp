@@ -259,9 +259,10 @@ class Attacher {
         // The edge that is cut is the body's own: its height or depth lies between.
         if (std::pair{a, b} == edge_ || std::pair{b, a} == edge_) return;
         const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
+        const LineSegment mine{corner(p), corner(q)};
         is_clear =
-            is_clear &&
-            !detail::is_too_near(clearance_, detail::distance({corner(p), corner(q)}, edge), edge);
+            is_clear && (is_far_off(mine, edge) ||
+                         !detail::is_too_near(clearance_, detail::distance(mine, edge), edge));
       });
     }
     // A hole of the facet may lie inside the outline.
@@ -271,6 +272,16 @@ class Attacher {
     for (const detail::Outline& other : outlines)
       if (detail::contains(only, normal, other[0])) return false;
     return is_clear;
+  }
+  /// Their boxes are further apart than the clearance: their distance need not be known.
+  [[nodiscard]] bool is_far_off(const LineSegment& p, const LineSegment& q) const {
+    const double reach_m = 2 * clearance_.least_m;
+    const auto are_apart = [&](double a, double b, double c, double d) {
+      return std::min(a, b) > std::max(c, d) + reach_m || std::min(c, d) > std::max(a, b) + reach_m;
+    };
+    return are_apart(p.first.x, p.second.x, q.first.x, q.second.x) ||
+           are_apart(p.first.y, p.second.y, q.first.y, q.second.y) ||
+           are_apart(p.first.z, p.second.z, q.first.z, q.second.z);
   }
   [[nodiscard]] bool is_of_notch(int c) const { return c == notch_.first || c == notch_.second; }
 

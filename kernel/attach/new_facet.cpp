@@ -11,8 +11,8 @@ namespace {
 
 PlaneId plane_id(Solid& solid, const Plane& plane) {
   for (int p = 0; p < std::ssize(solid.planes); ++p)
-    if (solid.planes[at(p)].coefficients == plane.coefficients &&
-        solid.planes[at(p)].offset == plane.offset)
+    if (solid.planes[at(p)].offset == plane.offset &&
+        solid.planes[at(p)].coefficients == plane.coefficients)
       return {p};
   solid.planes.push_back(plane);
   return {static_cast<int>(solid.planes.size()) - 1};
