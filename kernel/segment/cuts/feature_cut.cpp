@@ -1,9 +1,8 @@
 #include "kernel/segment/cuts/feature_cut.h"
 
 #include "kernel/base/index.h"
-#include "kernel/segment/sections/edge_index.h"
 
-#include <array>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -23,14 +22,28 @@ std::optional<int> region_around(const Boundary& body, const Section& section, b
   return std::nullopt;
 }
 
+/// One half-edge of each edge that has one end in front of the plane and one not.
+std::vector<EdgeId> edges_across(const Boundary& body, int plane, int direction) {
+  const auto ranks = body.world().points.ranks(body.world().planes.class_of(plane));
+  const int limit = body.world().planes.rank_of(plane) * direction;
+  std::vector<EdgeId> edges;
+  for (const EdgeId e : body.half_edge_ids()) {
+    const auto& half = body.edge(e);
+    if (half.next.is_valid() && e < half.twin &&
+        (ranks[half.origin] * direction > limit) !=
+            (ranks[body.origin(half.twin)] * direction > limit))
+      edges.push_back(e);
+  }
+  return edges;
+}
+
 }  // namespace
 
 std::optional<FeatureCut> find_feature_cut(const Boundary& body, int plane, int direction,
                                            bool is_material, Vec3 point,
                                            const SectionOptions& options) {
   FeatureCut cut{{plane, direction}, {}};
-  EdgeIndex edges(body, std::array{plane});
-  section_at(body, cut.section, edges.edges_at(0, direction), options);
+  section_at(body, cut.section, edges_across(body, plane, direction), options);
   const auto region = region_around(body, cut.section, is_material, point);
   if (!region) return std::nullopt;
   cut.lump = LumpFinder(body, cut.section).find(*region);
