@@ -61,7 +61,14 @@ class FeatureRemover {
     hosted_.resize(segmentation_.features.size());
     for (int i = 0; i < std::ssize(segmentation_.features); ++i) enter(FeatureId{i});
     const std::vector<Boundary> untouched = bodies_;
-    while (!try_all()) bodies_ = untouched;
+    const std::vector<char> all_wanted = wanted_;
+    while (!try_all()) {
+      bodies_ = untouched;
+      if (!std::exchange(is_spoilt_, false)) continue;
+      is_careful_ = true;
+      wanted_ = all_wanted;
+      out_.refused.clear();
+    }
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
       if (go_[at(i)]) out_.removed.push_back(FeatureId{i});
     out_.solid = remaining_solid();
@@ -85,7 +92,8 @@ class FeatureRemover {
   }
 
   /// Removes all that is wanted, one after the other. False if something was refused after what
-  /// sits on it had gone: then all has to be done again without it.
+  /// sits on it had gone: then all has to be done again without it. False also if a body was spoilt
+  /// by a cut that could not be made: then all has to be done again carefully.
   bool try_all() {
     go_ = spread(wanted_, segmentation_);
     rings_.clear();
@@ -93,7 +101,8 @@ class FeatureRemover {
     for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
       const FeatureId id{i};
       if (!go_[at(i)] || goes_with_parent(id)) continue;
-      if (const auto reason = remove(id); reason && !refuse(id, *reason)) return false;
+      const auto reason = remove(id);
+      if (is_spoilt_ || (reason && !refuse(id, *reason))) return false;
     }
     return true;
   }
@@ -148,7 +157,7 @@ class FeatureRemover {
       sides.push_back(*side);
     }
     auto reason = sides.size() == 1 ? remove_by_section(f, sides[0]) : remove_by_patch(f, sides);
-    if (!reason || !f.parent.is_valid()) return reason;
+    if (!reason || is_spoilt_ || !f.parent.is_valid()) return reason;
     const auto all_sides = sides_around(id);
     if (all_sides.size() > sides.size() && !remove_by_patch(f, all_sides)) return std::nullopt;
     return reason;
@@ -195,9 +204,7 @@ class FeatureRemover {
       const detail::Lump& lump = cut->lump;
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0) return "its cut no longer closes";
       if (cut->caps) return take(body, *cut->caps, f);
-      Boundary& trial = copy_of(body);
-      std::vector<PointId> touched;
-      return take_on_trial(body, imprint(trial, cut->section, lump, touched), f);
+      return take_imprinted(body, *cut, f);
     }
     return "its cut is no longer found";
   }
@@ -271,14 +278,35 @@ class FeatureRemover {
     return take_on_trial(body, caps, f);
   }
 
-  /// The same on the copy of a body in which the caps are edges already: it takes the body's place.
+  /// The same on the copy of a body: it takes the body's place.
   std::optional<std::string> take_on_trial(Boundary& body, const std::vector<detail::CutCap>& caps,
                                            const Feature& f) {
-    const auto carved = take_off(*trial_, caps, f.sense == Sense::hole, {}, {});
+    if (auto reason = why_not_without(*trial_, caps, f)) return reason;
+    std::swap(body, *trial_);
+    return std::nullopt;
+  }
+
+  /// Splits facets for the cut, and takes the part off. Nearly always that goes well, so only a
+  /// body of which a part has turned out to stay is copied before.
+  std::optional<std::string> take_imprinted(Boundary& body, const detail::FeatureCut& cut,
+                                            const Feature& f) {
+    Boundary& trial = is_careful_ ? copy_of(body) : body;
+    std::vector<PointId> touched;
+    const auto caps = imprint(trial, cut.section, cut.lump, touched);
+    if (is_careful_) return take_on_trial(body, caps, f);
+    auto reason = why_not_without(body, caps, f);
+    is_spoilt_ = reason.has_value();
+    return reason;
+  }
+
+  /// Takes the part inside the caps off for good; the reason if that should not have been.
+  std::optional<std::string> why_not_without(Boundary& body,
+                                             const std::vector<detail::CutCap>& caps,
+                                             const Feature& f) const {
+    const auto carved = take_off(body, caps, f.sense == Sense::hole, {}, {});
     if (!carved) return "its cut no longer closes";
     if (auto reason = fault_of(carved->lump, f)) return reason;
-    if (loses_others(carved->lump, *trial_, f)) return "a feature that stays would go with it";
-    std::swap(body, *trial_);
+    if (loses_others(carved->lump, body, f)) return "a feature that stays would go with it";
     return std::nullopt;
   }
 
@@ -394,8 +422,10 @@ class FeatureRemover {
   std::vector<detail::RingCuts> rings_;          ///< by body
   std::vector<std::pair<int, FacetId>> facets_;  ///< of the solid, by their polygons
   std::optional<Boundary> trial_;
-  std::vector<char> wanted_;                         ///< by feature: asked for and not refused
-  std::vector<char> go_;                             ///< by feature: wanted, or sits on what is
+  bool is_spoilt_ = false;    ///< a part was cut off a body that should have stayed
+  bool is_careful_ = false;   ///< facets are split on copies of bodies
+  std::vector<char> wanted_;  ///< by feature: asked for and not refused
+  std::vector<char> go_;      ///< by feature: wanted, or sits on what is
   std::vector<std::vector<FeatureId>> hosted_;       ///< by feature: what it is the host of
   std::vector<std::vector<FeatureId>> starting_at_;  ///< by their first polygon
   std::vector<FeatureId> cavities_;
