@@ -88,7 +88,7 @@ Placed typified(const MemberRow& row, const RowMeans& means, std::size_t count, 
   const double free_m = means.all.width() - width;
   if (free_m < 0) return {std::nullopt, "one of those that stay would be wider than the row"};
   const Sense sense = common_sense(row.task);
-  Placed placed{row.task.solid, {}};
+  Placed placed;
   for (std::size_t i = 0; i < count; ++i) {
     const double part = count == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(count - 1);
     Extents where = means.all;
@@ -96,7 +96,8 @@ Placed typified(const MemberRow& row, const RowMeans& means, std::size_t count, 
     where.u1 = where.u0 + width;
     where.v0 = means.middle - height / 2;
     where.v1 = means.middle + height / 2;
-    placed = put(row, *placed.solid, where, means.depth, sense, row.task.feature(i));
+    placed = put(row, placed.solid ? *placed.solid : row.task.solid, where, means.depth, sense,
+                 row.task.feature(i));
     if (!placed.solid) return placed;
   }
   return placed;
@@ -105,7 +106,7 @@ Placed typified(const MemberRow& row, const RowMeans& means, std::size_t count, 
 /// `count` of a row's members at their own places, as many times as wide and as high.
 Placed thinned_out(const MemberRow& row, std::size_t count, double wider, double higher) {
   const std::size_t n = row.members.size();
-  Placed placed{row.task.solid, {}};
+  Placed placed;
   std::vector<std::size_t> stays;
   for (std::size_t i = 0; i < count; ++i) {
     // The ends of the row stay; of a single one there is none in the middle of two.
@@ -118,7 +119,8 @@ Placed thinned_out(const MemberRow& row, std::size_t count, double wider, double
     where.v0 -= more_v / 2;
     where.v1 += more_v / 2;
     const Feature& feature = row.task.feature(member);
-    placed = put(row, *placed.solid, where, row.depths[member], feature.sense, feature);
+    placed = put(row, placed.solid ? *placed.solid : row.task.solid, where, row.depths[member],
+                 feature.sense, feature);
     if (!placed.solid) return placed;
     stays.push_back(member);
   }
