@@ -43,6 +43,7 @@ class FacetSplitter {
   }
   Facet& facet(int f) { return solid_.facets[static_cast<std::size_t>(f)]; }
   [[nodiscard]] Outline outline_of(const Loop& loop) const;
+  void enter_all_edges();
   void enter_edges(int f);
   void put(int place, int sibling, Facet made);
   std::optional<std::vector<Loop>> loops_left(int f, const Loop& ring, Vec3 normal,
@@ -63,7 +64,7 @@ class FacetSplitter {
   Solid solid_;
   double snap_m_;
   std::vector<int> shell_of_;
-  std::map<DirectedEdge, int> facet_of_;  ///< by directed edge
+  std::map<DirectedEdge, int> facet_of_;  ///< by directed edge; empty until one is divided
   std::map<std::tuple<double, double, double>, int> made_;
 };
 
@@ -87,6 +88,11 @@ FacetSplitter::FacetSplitter(Solid solid, double snap_m)
     : solid_(std::move(solid)), snap_m_(snap_m), shell_of_(solid_.facets.size(), -1) {
   for (int s = 0; s < std::ssize(solid_.shells); ++s)
     for (const FacetId f : solid_.shells[at(s)].facets) shell_of_[f.index()] = s;
+}
+
+/// Once an edge is divided, which few outlines do, edges are entered as they change.
+void FacetSplitter::enter_all_edges() {
+  if (!facet_of_.empty()) return;
   for (int f = 0; f < std::ssize(solid_.facets); ++f) enter_edges(f);
 }
 
@@ -215,7 +221,7 @@ void FacetSplitter::put(int place, int sibling, Facet made) {
       solid_.shells[at(shell_of_[at(sibling)])].facets.push_back(FacetId{place});
   }
   facet(place) = std::move(made);
-  enter_edges(place);
+  if (!facet_of_.empty()) enter_edges(place);
 }
 
 int FacetSplitter::add_vertex(Vec3 p) {
@@ -273,6 +279,7 @@ std::optional<int> FacetSplitter::corner_at(int f, Vec3 p) {
 }
 
 void FacetSplitter::insert_on_edge(DirectedEdge edge, int vertex) {
+  enter_all_edges();
   for (const DirectedEdge& side : {edge, DirectedEdge{edge.second, edge.first}})
     if (const auto found = facet_of_.find(side); found != facet_of_.end())
       insert_into(found->second, side, vertex);
