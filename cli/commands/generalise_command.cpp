@@ -355,7 +355,7 @@ ExitCode work(GeneraliseArguments& arguments) {
                           report);
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
-  find_neighbours(arguments, report);
+  find_neighbours(arguments, report, arguments.out);
   find_kept_ground(arguments);
   if (const auto code = make_series(arguments, *rules, report)) return *code;
   const auto targets =

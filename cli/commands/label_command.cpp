@@ -280,7 +280,7 @@ ExitCode work(LabelArguments& arguments) {
   arguments.gives_only_features = arguments.out.empty() && arguments.energy.tables.empty();
   ExitCode code = ExitCode::clean;
   arguments.corrections = load_corrections(arguments.corrections_file, *rules, report, code);
-  find_neighbours(arguments, report);
+  find_neighbours(arguments, report, arguments.out);
   BatchRunner runner(arguments, &*rules, report);
   Labeller command(arguments, *rules, runner);
   code = graver(code, runner.run(command));

@@ -57,7 +57,7 @@ class Outsiders {
       if (std::ranges::binary_search(group.members, i)) continue;
       const Vec3 moved_m = all[i].origin_m - origin_m;
       boxes_.push_back(all[i].box.moved(moved_m));
-      for (auto& piece : moved_ground(all[i], moved_m))
+      for (auto& piece : moved_ground(*search.shaped(i).shape, moved_m))
         std::ranges::move(piece, std::back_inserter(outlines_));
     }
   }
@@ -107,7 +107,39 @@ bool asks_for_blocks(const Profile& profile, double scale) {
   return profile.groups && scale >= profile.groups->from_scale;
 }
 
+using BuildingPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+BuildingPairs both_ways(BuildingPairs pairs) {
+  const std::size_t count = pairs.size();
+  for (std::size_t i = 0; i < count; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+/// Those of which a building is the first.
+auto of_pair(const BuildingPairs& pairs, std::size_t building) {
+  return std::ranges::equal_range(pairs, building, {}, &BuildingPairs::value_type::first);
+}
+
 }  // namespace
+
+/// What a solid is made of.
+struct CityGroups::BlockForm {
+  std::optional<detail::UprightBlock> upright;
+  std::optional<detail::GabledBlock> gabled;
+  double grid_m = 0;
+
+  /// The faces of it; those of a gabled one are all that its solid is made of.
+  [[nodiscard]] Building faces(const std::string& id) const {
+    Building out = gabled ? detail::faces_of(*gabled, grid_m) : detail::faces_of({*upright});
+    out.id = id;
+    return out;
+  }
+  [[nodiscard]] std::optional<Solid> solid(const std::string& id) const {
+    return gabled ? detail::solid_of(faces(id), Tolerances{})
+                  : detail::solid_of({*upright}, Tolerances{});
+  }
+};
 
 bool asks_for_groups(const Profile& profile, double scale) {
   return asks_for_blocks(profile, scale) || asks_for_rows(profile, scale);
@@ -115,11 +147,7 @@ bool asks_for_groups(const Profile& profile, double scale) {
 
 CityGroups::CityGroups(const NeighbourSearch& search, const Profile& profile, double scale,
                        const ForEachShare& each, const KeptGround* kept)
-    : search_(search),
-      group_of_(search.size(), -1),
-      unlike_(search.size()),
-      kept_apart_(search.size()),
-      kept_(kept) {
+    : search_(search), group_of_(search.size(), -1), kept_(kept) {
   if (asks_for_blocks(profile, scale)) find_blocks(profile, scale, each);
   if (asks_for_rows(profile, scale)) find_rows(profile);
 }
@@ -132,23 +160,22 @@ void CityGroups::find_blocks(const Profile& profile, double scale, const ForEach
   for (AlikeGroup& group : found.groups) {
     for (const std::size_t member : group.members)
       group_of_[member] = static_cast<int>(groups_.size());
-    groups_.push_back({std::move(group), std::nullopt, false, Code::G422, {}});
+    groups_.push_back({std::move(group), nullptr, false, Code::G422, {}});
     look_at_kept(groups_.back());
   }
-  for (const auto& [i, k] : found.kept_apart) {
-    kept_apart_[i].push_back(k);
-    kept_apart_[k].push_back(i);
-  }
-  for (const auto& [i, k] : found.unlike) {
-    unlike_[i].push_back(k);
-    unlike_[k].push_back(i);
-  }
-  each(groups_.size(), [&](std::size_t i) { make_solid(groups_[i], profile, least_m); });
+  kept_apart_ = both_ways(found.kept_apart);
+  unlike_ = both_ways(found.unlike);
+  each(groups_.size(), [&](std::size_t i) {
+    make_solid(groups_[i], profile, least_m);
+    groups_[i].found.areas = {};
+  });
 }
 
 /// Of buildings that nothing adjoins.
 void CityGroups::find_rows(const Profile& profile) {
-  const auto is_detached = [&](std::size_t i) { return group_of_[i] < 0 && unlike_[i].empty(); };
+  const auto is_detached = [&](std::size_t i) {
+    return group_of_[i] < 0 && of_pair(unlike_, i).empty();
+  };
   for (const DetachedRow& row : detached_rows(search_, profile.groups->like_height_m, is_detached))
     add_row(row, profile.groups->row_ratio);
 }
@@ -193,26 +220,30 @@ std::vector<std::string> CityGroups::stood_for(const Neighbourhood& building) co
   return ids.size() > 1 ? ids : std::vector<std::string>{};
 }
 
+/// How much of it a building covers.
+double CityGroups::on_kept_m2(std::size_t building) const {
+  double sum_m2 = 0;
+  for (const auto& piece : search_.shaped(building).shape->ground)
+    sum_m2 += kept_->under_m2(piece, search_.buildings()[building].origin_m);
+  return sum_m2;
+}
+
 /// How much of it the members of a group cover already.
 void CityGroups::look_at_kept(DrawnGroup& group) {
   if (kept_ == nullptr) return;
   for (const std::size_t member : group.found.members) {
-    const StandingBuilding& one = search_.buildings()[member];
-    double sum_m2 = 0;
-    for (const auto& piece : one.ground) sum_m2 += kept_->under_m2(piece, one.origin_m);
+    const double sum_m2 = on_kept_m2(member);
     if (sum_m2 <= kOnKept_m2) continue;
     on_kept_m2_.emplace(member, sum_m2);
     group.code = Code::G440;
-    group.fault = fmt::format("'{}' stands on ground that is to be kept free", one.id);
+    group.fault = fmt::format("'{}' stands on ground that is to be kept free", id(member));
   }
 }
 
 bool CityGroups::covers_kept(DrawnGroup& group, const std::vector<Outline>& outlines) const {
   if (kept_ == nullptr) return false;
   double members_m2 = 0;
-  for (const std::size_t member : group.found.members)
-    for (const auto& piece : search_.buildings()[member].ground)
-      members_m2 += kept_->under_m2(piece, search_.buildings()[member].origin_m);
+  for (const std::size_t member : group.found.members) members_m2 += on_kept_m2(member);
   const Vec3 origin_m = search_.buildings()[group.found.members.front()].origin_m;
   const double gained_m2 = kept_->under_m2(outlines, origin_m) - members_m2;
   if (gained_m2 <= kGained_m2) return false;
@@ -230,11 +261,18 @@ void CityGroups::make_gabled(DrawnGroup& group, const std::vector<Outline>& outl
   const double eaves_m = found.gable->eaves_m, ridge_m = found.gable->ridge_m;
   if (!outline || ridge_m - eaves_m < kLeastGable_m || eaves_m - found.ground_m < kLeastGable_m)
     return;
-  Building faces = detail::faces_of({*outline, found.ground_m, eaves_m, ridge_m}, found.grid_m);
-  faces.id = id(found.members.front());
-  if (!validate(faces).empty()) return;
-  group.solid = detail::solid_of(faces, Tolerances{});
-  group.is_gabled = group.solid.has_value();
+  BlockForm form;
+  form.gabled = {*outline, found.ground_m, eaves_m, ridge_m};
+  form.grid_m = found.grid_m;
+  const std::string& first = id(found.members.front());
+  if (!validate(form.faces(first)).empty() || !form.solid(first)) return;
+  group.form = std::make_shared<const BlockForm>(std::move(form));
+  group.is_gabled = true;
+}
+
+Solid CityGroups::solid(std::size_t group) const {
+  const DrawnGroup& drawn = groups_[group];
+  return *drawn.form->solid(id(drawn.found.members.front()));
 }
 
 void CityGroups::make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const {
@@ -266,15 +304,18 @@ void CityGroups::make_solid(DrawnGroup& group, const Profile& profile, double le
   if (covers_kept(group, block.outlines)) return;
   make_gabled(group, block.outlines);
   if (group.is_gabled) return;
-  Building faces = detail::faces_of({block});
-  faces.id = id(found.members.front());
-  const auto findings = validate(faces);
+  BlockForm form;
+  form.upright = std::move(block);
+  const std::string& first = id(found.members.front());
+  const auto findings = validate(form.faces(first));
   if (!findings.empty()) {
     group.fault = fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence);
     return;
   }
-  group.solid = detail::solid_of({block}, tolerances);
-  if (!group.solid) group.fault = "no closed solid comes of its outline";
+  if (form.solid(first))
+    group.form = std::make_shared<const BlockForm>(std::move(form));
+  else
+    group.fault = "no closed solid comes of its outline";
 }
 
 std::optional<CityGroups::Membership> CityGroups::place_of(const Neighbourhood& building) const {
@@ -285,7 +326,7 @@ std::optional<CityGroups::Membership> CityGroups::place_of(const Neighbourhood& 
     const std::size_t by = standing_for(*building.self);
     return by == *building.self ? std::nullopt : std::optional(Membership{false, number, by});
   }
-  if (!group.solid) return std::nullopt;
+  if (!group.form) return std::nullopt;
   const std::size_t leader = group.found.members.front();
   return Membership{leader == *building.self, number, leader};
 }
@@ -303,12 +344,12 @@ std::vector<Issue> CityGroups::issues_of(const Neighbourhood& building) const {
   const auto add = [&](Severity severity, Code code, std::string sentence) {
     issues.push_back(building_issue(severity, code, id(self), std::move(sentence)));
   };
-  for (const std::size_t other : unlike_[self])
+  for (const auto& [_, other] : of_pair(unlike_, self))
     add(Severity::note, Code::G423,
         fmt::format("adjoins '{}', but their roofs differ too much in height: both stay by "
                     "themselves",
                     id(other)));
-  for (const std::size_t other : kept_apart_[self])
+  for (const auto& [_, other] : of_pair(kept_apart_, self))
     add(Severity::note, Code::G440,
         fmt::format("stays apart from '{}': the gap between them is ground that is to be kept free",
                     id(other)));
@@ -326,11 +367,11 @@ std::vector<Issue> CityGroups::issues_of(const Neighbourhood& building) const {
                       id(by)));
     return issues;
   }
-  if (group.solid && first == self)
+  if (group.form && first == self)
     add(Severity::note, Code::G421,
         fmt::format("became one block with {}{}", counted(others, "other"),
                     group.is_gabled ? ", under one gable" : ""));
-  else if (group.solid)
+  else if (group.form)
     add(Severity::note, Code::G421, fmt::format("became part of '{}'", id(first)));
   else if (first == self)
     add(Severity::warning, group.code,

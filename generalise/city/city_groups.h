@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oriel {
@@ -47,8 +48,8 @@ class CityGroups {
     return search_.buildings()[building].id;
   }
 
-  /// The solid, in the frame of the building that leads.
-  [[nodiscard]] const Solid& solid(std::size_t group) const { return *groups_[group].solid; }
+  /// The solid, in the frame of the building that leads: it is made again, as a city has many.
+  [[nodiscard]] Solid solid(std::size_t group) const;
   /// Ids of the members, ascending.
   [[nodiscard]] std::vector<std::string> members(std::size_t group) const;
   [[nodiscard]] std::size_t size() const { return groups_.size(); }
@@ -59,9 +60,11 @@ class CityGroups {
   [[nodiscard]] std::vector<Issue> issues_of(const Neighbourhood& building) const;
 
  private:
+  struct BlockForm;
   struct DrawnGroup {
-    AlikeGroup found;
-    std::optional<Solid> solid;  ///< nothing: its members stay as they were
+    AlikeGroup found;  ///< without its areas once its solid was made
+    std::shared_ptr<const BlockForm>
+        form;  ///< what the solid is made of; null: members stay as they were
     bool is_gabled = false;
     Code code = Code::G422;  ///< why
     std::string fault;
@@ -70,6 +73,7 @@ class CityGroups {
   };
 
   void make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const;
+  [[nodiscard]] double on_kept_m2(std::size_t building) const;
   void make_gabled(DrawnGroup& group, const std::vector<detail::Outline>& outlines) const;
   [[nodiscard]] bool covers_kept(DrawnGroup& group,
                                  const std::vector<detail::Outline>& outlines) const;
@@ -82,10 +86,10 @@ class CityGroups {
   const NeighbourSearch& search_;
   std::vector<DrawnGroup> groups_;
   std::vector<int> group_of_;  ///< by building; -1: none
-  /// By building: those that adjoin it and are of another height.
-  std::vector<std::vector<std::size_t>> unlike_;
-  /// By building: those from which it stays apart.
-  std::vector<std::vector<std::size_t>> kept_apart_;
+  /// A building and another one, both ways round, ascending.
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  Pairs unlike_;      ///< they adjoin and are of different heights
+  Pairs kept_apart_;  ///< they stay apart
   const KeptGround* kept_;
   /// By building: how much of the ground to be kept free it stands on, m2.
   std::map<std::size_t, double> on_kept_m2_;

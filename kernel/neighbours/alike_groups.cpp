@@ -54,9 +54,11 @@ class GroupFinder {
       : search_(search), limits_(limits), sets_(search.size()) {}
 
   AlikeGroups run() {
-    for (std::size_t i = 0; i < search_.size(); ++i)
+    for (const std::size_t i : search_.by_place())
       for (const std::size_t k : search_.near(i, reach_m()))
         if (k > i) join(i, k);
+    std::ranges::sort(out_.unlike);
+    std::ranges::sort(out_.kept_apart);
     std::map<int, std::vector<std::size_t>> members;
     for (std::size_t i = 0; i < search_.size(); ++i)
       members[sets_.find(static_cast<int>(i))].push_back(i);
@@ -69,22 +71,23 @@ class GroupFinder {
   [[nodiscard]] const StandingBuilding& at(std::size_t i) const { return search_.buildings()[i]; }
   /// In a frame with that origin.
   [[nodiscard]] std::vector<PlanArea> ground_of(std::size_t i, Vec3 origin_m) const {
-    return moved_ground(at(i), at(i).origin_m - origin_m);
+    return moved_ground(*search_.shaped(i).shape, at(i).origin_m - origin_m);
   }
   /// A crack between walls that touch is closed, too.
   [[nodiscard]] double reach_m() const { return std::max(limits_.gap_m, kContact_m); }
 
   void join(std::size_t i, std::size_t k) {
-    if (at(i).crs != at(k).crs || at(i).ground.empty() || at(k).ground.empty()) return;
+    const ShapedBuilding one = search_.shaped(i), other = search_.shaped(k);
+    if (one.known.system != other.known.system || one.shape->ground.empty() ||
+        other.shape->ground.empty())
+      return;
     std::vector<PlanArea> strips = strips_between(i, k);
     const bool has_gap = !strips.empty();
     if (limits_.kept != nullptr)
       std::erase_if(strips, [&](const PlanArea& strip) {
         return limits_.kept->under_m2(strip, at(i).origin_m) > kCovered_m2;
       });
-    const bool does_touch =
-        detail::contact_between(at(i), at(k), at(k).origin_m - at(i).origin_m, nullptr).area_m2 >=
-        kContact_m2;
+    const bool does_touch = detail::contact_between(one, other, nullptr).area_m2 >= kContact_m2;
     if (!does_touch && strips.empty()) {
       if (has_gap) out_.kept_apart.emplace_back(i, k);
       return;
@@ -102,9 +105,10 @@ class GroupFinder {
   /// In the frame of the first; those that no third building stands in.
   std::vector<PlanArea> strips_between(std::size_t i, std::size_t k) const {
     const Vec3 origin_m = at(i).origin_m;
-    const auto &of_i = at(i).ground, of_k = ground_of(k, origin_m);
+    const auto own = search_.shaped(i).shape;
+    const std::vector<PlanArea> of_k = ground_of(k, origin_m);
     std::vector<PlanArea> strips;
-    for (const PlanArea& p : of_i)
+    for (const PlanArea& p : own->ground)
       for (const PlanArea& q : of_k)
         for (PlanArea& strip : detail::gaps_between(p, q, reach_m(), kGapLean))
           if (is_free(strip, i, k)) strips.push_back(std::move(strip));

@@ -49,15 +49,16 @@ bool is_taken(const std::vector<TakenPlane>& taken, const UprightWall& wall, Vec
 
 }  // namespace
 
-BuildingContact contact_between(const StandingBuilding& one, const StandingBuilding& other,
-                                Vec3 moved_m, std::vector<NeighbourWall>* walls) {
+BuildingContact contact_between(const ShapedBuilding& one, const ShapedBuilding& other,
+                                std::vector<NeighbourWall>* walls) {
   BuildingContact out;
-  out.building = other.id;
-  const Box its = other.box.moved(moved_m);
+  out.building = other.known.id;
+  const Vec3 moved_m = other.known.origin_m - one.known.origin_m;
+  const Box its = other.known.box.moved(moved_m);
   std::vector<TakenPlane> taken;
-  for (const UprightWall& wall : one.walls) {
+  for (const UprightWall& wall : one.shape->walls) {
     if (!overlap(wall.box, its, kContact_m)) continue;
-    for (const UprightWall& against : other.walls) {
+    for (const UprightWall& against : other.shape->walls) {
       if (length(wall.normal + against.normal) > kPartyWallLean ||
           !overlap(wall.box, against.box.moved(moved_m), kContact_m))
         continue;
@@ -70,19 +71,20 @@ BuildingContact contact_between(const StandingBuilding& one, const StandingBuild
       out.widest_m = std::max(out.widest_m, moved->widest_m);
       if (walls == nullptr || is_taken(taken, against, point)) continue;
       taken.push_back({&against, point, wall.normal});
-      walls->push_back({other.id, std::move(moved->outlines), -wall.normal});
+      walls->push_back({other.known.id, std::move(moved->outlines), -wall.normal});
     }
   }
   return out;
 }
 
-double common_ground_m2(const StandingBuilding& one, const StandingBuilding& other, Vec3 moved_m) {
-  const Box its = other.box.moved(moved_m);
-  const double high_m = std::min(one.box.max.z, its.max.z) - std::max(one.box.min.z, its.min.z);
-  if (!overlap(one.box, its) || high_m <= kContact_m) return 0;
+double common_ground_m2(const ShapedBuilding& one, const ShapedBuilding& other) {
+  const Vec3 moved_m = other.known.origin_m - one.known.origin_m;
+  const Box own_box = one.known.box, its = other.known.box.moved(moved_m);
+  const double high_m = std::min(own_box.max.z, its.max.z) - std::max(own_box.min.z, its.min.z);
+  if (!overlap(own_box, its) || high_m <= kContact_m) return 0;
   double sum_m2 = 0;
-  for (const auto& piece : moved_ground(other, moved_m))
-    for (const auto& own : one.ground) sum_m2 += shared_area_m2(own, piece, {0, 0, 1});
+  for (const auto& piece : moved_ground(*other.shape, moved_m))
+    for (const auto& own : one.shape->ground) sum_m2 += shared_area_m2(own, piece, {0, 0, 1});
   return sum_m2;
 }
 

@@ -7,12 +7,12 @@
 
 namespace oriel::detail {
 
-/// Where one building touches another, whose frame lies at `moved_m` in that of the first. With
-/// `walls`, the other's walls that lie against the first are added there.
-BuildingContact contact_between(const StandingBuilding& one, const StandingBuilding& other,
-                                Vec3 moved_m, std::vector<NeighbourWall>* walls);
+/// Where one building touches another. With `walls`, the other's walls that lie against the first
+/// are added there, in the frame of the first.
+BuildingContact contact_between(const ShapedBuilding& one, const ShapedBuilding& other,
+                                std::vector<NeighbourWall>* walls);
 
 /// The ground that both cover; 0 if one lies above the other.
-double common_ground_m2(const StandingBuilding& one, const StandingBuilding& other, Vec3 moved_m);
+double common_ground_m2(const ShapedBuilding& one, const ShapedBuilding& other);
 
 }  // namespace oriel::detail

@@ -57,7 +57,7 @@ class RowFinder {
 
   [[nodiscard]] bool are_alike(std::size_t i, std::size_t k) const {
     const double least_m2 = std::min(at(i).ground_m2, at(k).ground_m2);
-    return at(i).crs == at(k).crs && least_m2 > 0 &&
+    return at(i).system == at(k).system && least_m2 > 0 &&
            std::max(at(i).ground_m2, at(k).ground_m2) <= kLikeArea * least_m2 &&
            std::abs(height_m(i) - height_m(k)) <= like_height_m_ &&
            distance_m(i, k) <= kFarthest * std::sqrt(least_m2);

@@ -7,6 +7,7 @@
 #include "kernel/model/tolerances.h"
 #include "kernel/neighbours/before_wall.h"
 #include "kernel/neighbours/contacts.h"
+#include "kernel/neighbours/shape_store.h"
 
 #include <algorithm>
 #include <array>
@@ -56,11 +57,12 @@ void append_outlines(std::string& bytes, const std::vector<Outline>& outlines) {
 }
 
 /// All that is kept of a building, as a hash.
-std::string key_of(const StandingBuilding& building) {
-  std::string bytes = building.id + '\n' + building.crs + '\n';
+std::string key_of(const StandingBuilding& building, const StandingShape& shape,
+                   const std::string& crs) {
+  std::string bytes = building.id + '\n' + crs + '\n';
   append_outlines(bytes, {{building.origin_m, building.box.min, building.box.max}});
-  for (const UprightWall& wall : building.walls) append_outlines(bytes, wall.outlines);
-  for (const auto& piece : building.ground) append_outlines(bytes, piece);
+  for (const UprightWall& wall : shape.walls) append_outlines(bytes, wall.outlines);
+  for (const auto& piece : shape.ground) append_outlines(bytes, piece);
   append_number(bytes, building.roof_m);
   if (building.gable)
     append_outlines(
@@ -120,82 +122,127 @@ double Neighbourhood::covered_share(std::span<const Outline> figure, Vec3 normal
   return std::min(1.0, shared_m2 / all_m2);
 }
 
+NeighbourSearch::NeighbourSearch(ScratchSpace scratch)
+    : shapes_(std::make_unique<detail::ShapeStore>(
+          scratch.held_bytes,
+          detail::scratch_folder(scratch.beside.empty() ? "-" : scratch.beside))) {}
+
+NeighbourSearch::~NeighbourSearch() = default;
+NeighbourSearch::NeighbourSearch(NeighbourSearch&&) noexcept = default;
+NeighbourSearch& NeighbourSearch::operator=(NeighbourSearch&&) noexcept = default;
+
 void NeighbourSearch::add(const Building& building) {
-  standing_.push_back(standing_building(building));
-  keys_.push_back(key_of(standing_.back()));
+  auto [known, shape] = standing_building(building);
+  const auto number = static_cast<int>(systems_.size());
+  known.system = systems_.try_emplace(building.frame.crs, number).first->second;
+  keys_.push_back(key_of(known, shape, building.frame.crs));
+  standing_.push_back(std::move(known));
+  shapes_->add(std::move(shape));
 }
 
-void NeighbourSearch::drop_repeated() {
+/// As which number each of those that stay was added.
+std::vector<std::size_t> NeighbourSearch::drop_repeated() {
   std::vector<std::size_t> order(standing_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return std::tie(standing_[i].id, keys_[i]); });
+  const auto by_id = [&](std::size_t i) { return std::tie(standing_[i].id, keys_[i]); };
+  std::ranges::sort(order, {}, by_id);
+  const auto [first, end] = std::ranges::unique(order, {}, by_id);
+  order.erase(first, end);
   std::vector<StandingBuilding> kept;
-  std::vector<std::string> keys;
+  kept.reserve(order.size());
+  Sha256 all;
   for (const std::size_t i : order) {
-    if (!by_key_.try_emplace(keys_[i], kept.size()).second) continue;
-    by_id_[standing_[i].id].push_back(kept.size());
+    all.add(keys_[i]);
     kept.push_back(std::move(standing_[i]));
-    keys.push_back(std::move(keys_[i]));
   }
   standing_ = std::move(kept);
-  keys_ = std::move(keys);
-  std::string all;
-  for (const std::string& key : keys_) all += key;
-  sha256_ = oriel::sha256(all);
-  for (const auto& [id, places] : by_id_)
-    if (places.size() > 1)
-      issues_.push_back(about_building(
-          Code::E179, id,
-          fmt::format("is the id of {} different buildings: each is a neighbour of the others",
-                      places.size())));
+  sha256_ = all.digest();
+  for (std::size_t i = 0, k = 0; i < order.size(); i = k) {
+    while (k < order.size() && standing_[k].id == standing_[i].id) ++k;
+    if (k - i == 1) continue;
+    for (std::size_t j = i; j < k; ++j) repeated_.emplace(keys_[order[j]], j);
+    issues_.push_back(about_building(
+        Code::E179, standing_[i].id,
+        fmt::format("is the id of {} different buildings: each is a neighbour of the others",
+                    k - i)));
+  }
+  keys_ = {};
+  return order;
+}
+
+void NeighbourSearch::tell_systems() {
+  if (systems_.size() < 2) return;
+  std::vector<std::size_t> count(systems_.size());
+  for (const StandingBuilding& building : standing_)
+    ++count[static_cast<std::size_t>(building.system)];
+  const auto most = std::ranges::max_element(
+      systems_, {}, [&](const auto& e) { return count[static_cast<std::size_t>(e.second)]; });
+  for (const auto& building : standing_) {
+    if (building.system == most->second) continue;
+    const auto own =
+        std::ranges::find(systems_, building.system, [](const auto& e) { return e.second; });
+    issues_.push_back(about_building(
+        Code::E177, building.id,
+        fmt::format("has coordinates in '{}', most buildings in '{}': neighbours are looked for "
+                    "among those of one system",
+                    own->first, most->first)));
+  }
 }
 
 void NeighbourSearch::finish() {
-  drop_repeated();
-  std::map<std::string, std::size_t> systems;
-  for (const StandingBuilding& building : standing_) ++systems[building.crs];
-  if (systems.size() > 1) {
-    const auto most = std::ranges::max_element(systems, {}, [](const auto& e) { return e.second; });
-    for (const StandingBuilding& building : standing_)
-      if (building.crs != most->first)
-        issues_.push_back(about_building(
-            Code::E177, building.id,
-            fmt::format("has coordinates in '{}', most buildings in '{}': neighbours are looked "
-                        "for among those of one system",
-                        building.crs, most->first)));
-  }
-  std::vector<Box> boxes, grounds;
-  for (const StandingBuilding& building : standing_) {
-    boxes.push_back(box_in_input(building));
-    grounds.push_back(flat(boxes.back()));
-  }
-  tree_.emplace(std::move(boxes));
-  ground_tree_.emplace(std::move(grounds));
-  find_groups();
+  const std::vector<std::size_t> kept = drop_repeated();
+  tell_systems();
+  std::vector<Box> grounds;
+  grounds.reserve(size());
+  for (const StandingBuilding& building : standing_)
+    grounds.push_back(flat(box_in_input(building)));
+  tree_.emplace(std::move(grounds));
+  by_place_.reserve(size());
+  tree_->search([](const Box&) { return true; },
+                [&](int i) { by_place_.push_back(static_cast<std::size_t>(i)); });
+  shapes_->arrange(kept, by_place_);
+  unite_touching();
 }
 
-void NeighbourSearch::find_groups() {
-  detail::DisjointSets sets(standing_.size());
-  for (std::size_t i = 0; i < standing_.size(); ++i)
-    for (const std::size_t k : near_boxes(box_in_input(standing_[i]), standing_[i], i)) {
+void NeighbourSearch::unite_touching() {
+  detail::DisjointSets sets(size());
+  std::vector<char> does_touch(size(), 0);
+  for (const std::size_t i : by_place_) {
+    const ShapedBuilding own = shaped(i);
+    for (const std::size_t k : near_boxes(own.known, i)) {
       if (k < i || sets.find(static_cast<int>(i)) == sets.find(static_cast<int>(k))) continue;
-      const Vec3 moved_m = standing_[k].origin_m - standing_[i].origin_m;
-      const BuildingContact contact =
-          detail::contact_between(standing_[i], standing_[k], moved_m, nullptr);
-      if (contact.area_m2 >= kContact_m2) sets.unite(static_cast<int>(i), static_cast<int>(k));
+      if (detail::contact_between(own, shaped(k), nullptr).area_m2 < kContact_m2) continue;
+      sets.unite(static_cast<int>(i), static_cast<int>(k));
+      does_touch[i] = does_touch[k] = 1;
     }
-  std::map<int, std::size_t> number_of;
-  for (std::size_t i = 0; i < standing_.size(); ++i) {
-    const auto [entry, is_new] =
-        number_of.try_emplace(sets.find(static_cast<int>(i)), groups_.size());
-    if (is_new) groups_.emplace_back();
-    TouchingGroup& group = groups_[entry->second];
+  }
+  group_of_.assign(size(), -1);
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (does_touch[i] == 0) continue;
+    const auto first = static_cast<std::size_t>(sets.find(static_cast<int>(i)));
+    if (first == i) {
+      group_of_[i] = static_cast<int>(groups_.size());
+      groups_.emplace_back();
+    }
+    TouchingGroup& group = groups_[static_cast<std::size_t>(group_of_[i] = group_of_[first])];
     group.members.push_back(i);
     group.box.grow(box_in_input(standing_[i]));
-    group_of_.push_back(entry->second);
   }
-  for (TouchingGroup& group : groups_)
-    if (group.members.size() > 2) find_yards(group);
+  for (const std::size_t i : by_place_)
+    if (const auto number = group_of_[i]; number >= 0) {
+      TouchingGroup& group = groups_[static_cast<std::size_t>(number)];
+      if (group.members.front() == i && group.members.size() > 2) find_yards(group);
+    }
+}
+
+ShapedBuilding NeighbourSearch::shaped(std::size_t building) const {
+  return {standing_[building], shapes_->at(building)};
+}
+
+/// Null: it touches none.
+const NeighbourSearch::TouchingGroup* NeighbourSearch::group_of(std::size_t building) const {
+  const int number = group_of_[building];
+  return number < 0 ? nullptr : &groups_[static_cast<std::size_t>(number)];
 }
 
 /// Houses around a yard are three at least.
@@ -203,50 +250,58 @@ void NeighbourSearch::find_yards(TouchingGroup& group) const {
   const Vec3 origin_m = standing_[group.members.front()].origin_m;
   std::vector<detail::PlanArea> grounds;
   for (const std::size_t member : group.members)
-    for (auto& piece : moved_ground(standing_[member], standing_[member].origin_m - origin_m))
+    for (auto& piece : moved_ground(*shapes_->at(member), standing_[member].origin_m - origin_m))
       grounds.push_back(std::move(piece));
   for (const detail::PlanArea& area : detail::united(grounds, kContact_m))
     group.yards.insert(group.yards.end(), area.begin() + 1, area.end());
 }
 
-std::optional<std::size_t> NeighbourSearch::find(const StandingBuilding& building) const {
-  const auto found = by_id_.find(building.id);
-  if (found == by_id_.end()) return std::nullopt;
-  if (found->second.size() == 1) return found->second.front();
-  const auto by_key = by_key_.find(key_of(building));
-  if (by_key == by_key_.end()) return std::nullopt;
-  return by_key->second;
+std::optional<std::size_t> NeighbourSearch::find(const ShapedBuilding& building,
+                                                 const std::string& crs) const {
+  const auto same =
+      std::ranges::equal_range(standing_, building.known.id, {}, &StandingBuilding::id);
+  if (same.empty()) return std::nullopt;
+  if (same.size() == 1) return static_cast<std::size_t>(same.begin() - standing_.begin());
+  const auto found = repeated_.find(key_of(building.known, *building.shape, crs));
+  if (found == repeated_.end()) return std::nullopt;
+  return found->second;
 }
 
 /// Ascending.
-std::vector<std::size_t> NeighbourSearch::near_boxes(const Box& box, const StandingBuilding& own,
+std::vector<std::size_t> NeighbourSearch::near_boxes(const StandingBuilding& own,
                                                      std::optional<std::size_t> self) const {
   std::vector<std::size_t> out;
-  tree_->for_each_overlap(grown(box, kContact_m), [&](int i) {
+  const Box reach = grown(box_in_input(own), kContact_m);
+  tree_->for_each_overlap(flat(reach), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    if (k != self && standing_[k].crs == own.crs) out.push_back(k);
+    if (k != self && standing_[k].system == own.system &&
+        overlap(reach, box_in_input(standing_[k])))
+      out.push_back(k);
   });
   std::ranges::sort(out);
   return out;
 }
 
 Neighbourhood NeighbourSearch::of(const Building& building) const {
-  const StandingBuilding own = standing_building(building);
+  auto [known, shape] = standing_building(building);
+  if (const auto found = systems_.find(building.frame.crs); found != systems_.end())
+    known.system = found->second;
+  const ShapedBuilding own{known, std::make_shared<const StandingShape>(std::move(shape))};
   Neighbourhood out;
-  out.self = find(own);
-  out.origin_m = own.origin_m;
-  for (const std::size_t k : near_boxes(box_in_input(own), own, out.self)) {
-    const Vec3 moved_m = standing_[k].origin_m - own.origin_m;
+  out.self = find(own, building.frame.crs);
+  out.origin_m = known.origin_m;
+  for (const std::size_t k : near_boxes(known, out.self)) {
+    const ShapedBuilding other = shaped(k);
     std::vector<NeighbourWall> walls;
-    BuildingContact contact = detail::contact_between(own, standing_[k], moved_m, &walls);
-    contact.overlap_m2 = detail::common_ground_m2(own, standing_[k], moved_m);
+    BuildingContact contact = detail::contact_between(own, other, &walls);
+    contact.overlap_m2 = detail::common_ground_m2(own, other);
     const bool do_touch = contact.area_m2 >= kContact_m2;
     if (!do_touch) contact.area_m2 = 0;
     if (!do_touch && contact.overlap_m2 <= kOverlap_m2) continue;
     if (do_touch) std::ranges::move(walls, std::back_inserter(out.walls));
     out.contacts.push_back(std::move(contact));
   }
-  out.issues = issues_of(own, out.contacts);
+  out.issues = issues_of(known, out.contacts);
   return out;
 }
 
@@ -256,15 +311,17 @@ std::optional<Outlook> NeighbourSearch::outlook(const Neighbourhood& of, Vec3 po
   if (!of.self || length(level) < kLeastRun) return std::nullopt;
   const Vec3 along = normalised(level);
   Vec3 from = Vec3{point.x, point.y, 0} + kStep_m * along;
-  const auto& own = standing_[*of.self].ground;
+  const auto shape = shapes_->at(*of.self);
+  const auto& own = shape->ground;
   // A wall on the roof, as of a dormer, looks out over the building's own ground.
   if (detail::is_on_ground(own, from))
     if (const auto out_m = detail::first_crossing_m(own, from, along, Box::kInfinity))
       from = from + (*out_m + kStep_m) * along;
   if (is_on_other(of, from)) return Outlook::roof;
-  const TouchingGroup& group = groups_[group_of_[*of.self]];
-  const Vec3 in_group = from + of.origin_m - standing_[group.members.front()].origin_m;
-  for (const Outline& yard : group.yards)
+  const TouchingGroup* group = group_of(*of.self);
+  if (group == nullptr) return Outlook::street;
+  const Vec3 in_group = from + of.origin_m - standing_[group->members.front()].origin_m;
+  for (const Outline& yard : group->yards)
     if (detail::contains(std::span(&yard, 1), {0, 0, 1}, {in_group.x, in_group.y, 0}))
       return Outlook::yard;
   const bool is_enclosed = std::ranges::all_of(kWays, [&](const std::array<double, 2>& way) {
@@ -277,34 +334,33 @@ std::optional<Outlook> NeighbourSearch::outlook(const Neighbourhood& of, Vec3 po
 bool NeighbourSearch::is_on_other(const Neighbourhood& of, Vec3 from) const {
   bool is_on = false;
   const Vec3 in_input{from.x + of.origin_m.x, from.y + of.origin_m.y, 0};
-  ground_tree_->for_each_overlap({in_input, in_input}, [&](int i) {
+  tree_->for_each_overlap({in_input, in_input}, [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    if (k == *of.self || standing_[k].crs != standing_[*of.self].crs || is_on) return;
-    is_on =
-        detail::is_on_ground(moved_ground(standing_[k], standing_[k].origin_m - of.origin_m), from);
+    if (k == *of.self || standing_[k].system != standing_[*of.self].system || is_on) return;
+    is_on = detail::is_on_ground(moved_ground(*shapes_->at(k), standing_[k].origin_m - of.origin_m),
+                                 from);
   });
   return is_on;
 }
 
-/// The building's own ground is looked through.
+/// The building touches others; its own ground is looked through.
 bool NeighbourSearch::meets_group(const Neighbourhood& of, Vec3 from, Vec3 along) const {
   const std::size_t self = *of.self;
-  const TouchingGroup& group = groups_[group_of_[self]];
-  if (group.members.size() < 2) return false;
-  const double reach_m = length(group.box.max - group.box.min);
+  const Box& around = group_of(self)->box;
+  const double reach_m = length(around.max - around.min);
   const Vec3 in_input{from.x + of.origin_m.x, from.y + of.origin_m.y, 0};
   std::optional<double> nearest_m;
   bool is_of_group = false;
   const auto look_at = [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    if (k == self || standing_[k].crs != standing_[self].crs) return;
-    const auto ground = moved_ground(standing_[k], standing_[k].origin_m - of.origin_m);
+    if (k == self || standing_[k].system != standing_[self].system) return;
+    const auto ground = moved_ground(*shapes_->at(k), standing_[k].origin_m - of.origin_m);
     const auto at_m = detail::first_crossing_m(ground, from, along, reach_m);
     if (!at_m || (nearest_m && *nearest_m <= *at_m)) return;
     nearest_m = at_m;
     is_of_group = group_of_[k] == group_of_[self];
   };
-  ground_tree_->search(
+  tree_->search(
       [&](const Box& box) {
         return detail::comes_near(box, in_input, in_input + reach_m * along, kContact_m);
       },
@@ -314,7 +370,7 @@ bool NeighbourSearch::meets_group(const Neighbourhood& of, Vec3 from, Vec3 along
 
 bool NeighbourSearch::is_built_on(const Neighbourhood& of, const Box& local_m) const {
   bool is_built = false;
-  ground_tree_->for_each_overlap(flat(local_m.moved(of.origin_m)), [&](int i) {
+  tree_->for_each_overlap(flat(local_m.moved(of.origin_m)), [&](int i) {
     is_built = is_built || static_cast<std::size_t>(i) != of.self;
   });
   return is_built;
@@ -322,19 +378,17 @@ bool NeighbourSearch::is_built_on(const Neighbourhood& of, const Box& local_m) c
 
 std::vector<std::size_t> NeighbourSearch::standing_in(const Box& input_m) const {
   std::vector<std::size_t> out;
-  ground_tree_->for_each_overlap(flat(input_m),
-                                 [&](int i) { out.push_back(static_cast<std::size_t>(i)); });
+  tree_->for_each_overlap(flat(input_m),
+                          [&](int i) { out.push_back(static_cast<std::size_t>(i)); });
   std::ranges::sort(out);
   return out;
 }
 
 std::vector<std::size_t> NeighbourSearch::near(std::size_t building, double reach_m) const {
   std::vector<std::size_t> out;
-  ground_tree_->for_each_overlap(grown(flat(box_in_input(standing_[building])), reach_m),
-                                 [&](int i) {
-                                   if (static_cast<std::size_t>(i) != building)
-                                     out.push_back(static_cast<std::size_t>(i));
-                                 });
+  tree_->for_each_overlap(grown(flat(box_in_input(standing_[building])), reach_m), [&](int i) {
+    if (static_cast<std::size_t>(i) != building) out.push_back(static_cast<std::size_t>(i));
+  });
   std::ranges::sort(out);
   return out;
 }

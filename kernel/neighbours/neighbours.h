@@ -7,12 +7,17 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace oriel {
+
+namespace detail {
+class ShapeStore;
+}
 
 /// A wall of another building against which a building stands, in the building's frame, moved into
 /// the plane of the building's own wall.
@@ -57,14 +62,32 @@ struct Neighbourhood {
   [[nodiscard]] double covered_share(std::span<const detail::Outline> figure, Vec3 normal) const;
 };
 
+/// What the outlines of buildings may take in memory, and where the rest of them is.
+struct ScratchSpace {
+  /// So many of them are in memory. Those of two and a half thousand houses with windows take 32
+  /// MB, less than a run over single buildings needs anyway; a building and all that stands near
+  /// it, at whatever scale, is a small part of that.
+  std::size_t held_bytes = std::size_t{32} << 20;
+  /// The output: those of larger cities are in a file without a name in its folder. Empty: in the
+  /// folder for temporary files.
+  std::string beside{};
+};
+
 /// The buildings of a city: who touches whom, and what lies before their walls.
 ///
 /// Two buildings touch where walls of them, upright to half a degree and with opposite normals, are
 /// no more than kContact_m apart and share kContact_m2 or more; those that touch, directly or by
 /// others, are a group. Results do not depend on the order in which buildings are added. Searches
-/// take O(n log n) in all: boxes in a tree (detail::BoxTree).
+/// take O(n log n) in all: boxes in a tree (detail::BoxTree). Of each building its id, box and
+/// heights are in memory, some 400 bytes; outlines are as ScratchSpace says, which changes no
+/// result. A file that cannot be written or read again is an OutputError E601, thrown by any call.
 class NeighbourSearch {
  public:
+  explicit NeighbourSearch(ScratchSpace scratch = {});
+  ~NeighbourSearch();
+  NeighbourSearch(NeighbourSearch&&) noexcept;
+  NeighbourSearch& operator=(NeighbourSearch&&) noexcept;
+
   /// A building of a file, before finish(). One that comes again unchanged counts once.
   void add(const Building& building);
   /// All were added: groups and courtyards are found. Then the rest may be called, by several
@@ -94,11 +117,16 @@ class NeighbourSearch {
 
   /// The buildings, ascending by id.
   [[nodiscard]] const std::vector<StandingBuilding>& buildings() const { return standing_; }
+  /// One of them with its outlines.
+  [[nodiscard]] ShapedBuilding shaped(std::size_t building) const;
+  /// All of them, those that stand near each other together.
+  [[nodiscard]] const std::vector<std::size_t>& by_place() const { return by_place_; }
   /// Those whose boxes are no further than `reach_m` from that of a building, itself left out,
   /// ascending.
   [[nodiscard]] std::vector<std::size_t> near(std::size_t building, double reach_m) const;
 
  private:
+  /// Of two buildings at least.
   struct TouchingGroup {
     std::vector<std::size_t> members;
     Box box;  ///< in the input's coordinates
@@ -106,24 +134,28 @@ class NeighbourSearch {
     std::vector<detail::Outline> yards;
   };
 
-  void drop_repeated();
-  void find_groups();
+  [[nodiscard]] std::vector<std::size_t> drop_repeated();
+  void tell_systems();
+  void unite_touching();
   void find_yards(TouchingGroup& group) const;
-  [[nodiscard]] std::optional<std::size_t> find(const StandingBuilding& building) const;
+  [[nodiscard]] std::optional<std::size_t> find(const ShapedBuilding& building,
+                                                const std::string& crs) const;
+  [[nodiscard]] const TouchingGroup* group_of(std::size_t building) const;
   /// Whether a point of the plan, in the building's frame, is ground of another building.
   [[nodiscard]] bool is_on_other(const Neighbourhood& of, Vec3 from) const;
   /// Whether the first building on the way, itself left out, is one of its group.
   [[nodiscard]] bool meets_group(const Neighbourhood& of, Vec3 from, Vec3 along) const;
-  [[nodiscard]] std::vector<std::size_t> near_boxes(const Box& box, const StandingBuilding& own,
+  [[nodiscard]] std::vector<std::size_t> near_boxes(const StandingBuilding& own,
                                                     std::optional<std::size_t> self) const;
 
   std::vector<StandingBuilding> standing_;
-  std::vector<std::string> keys_;  ///< hashes, by building
-  std::map<std::string, std::size_t> by_key_;
-  std::map<std::string, std::vector<std::size_t>> by_id_;
-  std::optional<detail::BoxTree> tree_;         ///< in the input's coordinates
-  std::optional<detail::BoxTree> ground_tree_;  ///< the same with z = 0
-  std::vector<std::size_t> group_of_;
+  std::unique_ptr<detail::ShapeStore> shapes_;
+  std::vector<std::string> keys_;  ///< hashes, as buildings were added, until finish()
+  std::map<std::string, std::size_t> repeated_;  ///< by hash, those whose id others have, too
+  std::map<std::string, int> systems_;
+  std::vector<std::size_t> by_place_;
+  std::optional<detail::BoxTree> tree_;  ///< in the input's coordinates, seen from above: z = 0
+  std::vector<int> group_of_;            ///< by building; -1: it touches none
   std::vector<TouchingGroup> groups_;
   std::string sha256_;
   std::vector<Issue> issues_;

@@ -102,7 +102,7 @@ std::optional<GabledRoof> gabled_roof(const std::vector<GentlePolygon>& flats) {
 }
 
 /// True if what looks down is the ground.
-bool take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out) {
+bool take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out, StandingShape& shape) {
   double low_m2 = 0, up_m2 = 0;
   for (const GentlePolygon& flat : flats) {
     if (flat.is_low) low_m2 += flat.area_m2;
@@ -112,14 +112,14 @@ bool take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out) {
   for (GentlePolygon& flat : flats) {
     if (has_ground ? !flat.is_low : !flat.looks_up) continue;
     out.ground_m2 += flat.area_m2;
-    out.ground.push_back(std::move(flat.outlines));
+    shape.ground.push_back(std::move(flat.outlines));
   }
   return has_ground;
 }
 
 /// True of a small wall, as around and behind the pane of a window, all of which has ground of the
 /// building itself before it, further than walls that touch are apart.
-bool looks_at_own_ground(const UprightWall& wall, const StandingBuilding& own) {
+bool looks_at_own_ground(const UprightWall& wall, const StandingShape& own) {
   const Outline& outline = wall.outlines[0];
   if (detail::figure_area_m2(wall.outlines, wall.normal) > kLargestPane_m2) return false;
   Vec3 middle;
@@ -137,10 +137,10 @@ bool looks_at_own_ground(const UprightWall& wall, const StandingBuilding& own) {
 
 }  // namespace
 
-StandingBuilding standing_building(const Building& building) {
+std::pair<StandingBuilding, StandingShape> standing_building(const Building& building) {
   StandingBuilding out;
+  StandingShape shape;
   out.id = building.id;
-  out.crs = building.frame.crs;
   out.origin_m = building.frame.origin_m;
   std::vector<std::pair<std::vector<Outline>, Vec3>> polygons;
   for (const Polygon& polygon : building.polygons) {
@@ -155,7 +155,7 @@ StandingBuilding standing_building(const Building& building) {
   for (auto& [outlines, area] : polygons) {
     const Vec3 normal = normalised(area);
     if (std::abs(normal.z) <= kPartyWallLean) {
-      if (length(area) >= kLeastWall_m2) out.walls.push_back({std::move(outlines), normal, {}});
+      if (length(area) >= kLeastWall_m2) shape.walls.push_back({std::move(outlines), normal, {}});
       continue;
     }
     if (detail::looks_aside(normal)) continue;
@@ -173,18 +173,18 @@ StandingBuilding standing_building(const Building& building) {
     flat.area_m2 = std::max(0.0, detail::figure_area_m2(flat.outlines, kUpwards));
     flats.push_back(std::move(flat));
   }
-  for (UprightWall& wall : out.walls) wall.box = box_of_outline(wall.outlines[0]);
+  for (UprightWall& wall : shape.walls) wall.box = box_of_outline(wall.outlines[0]);
   out.roof_m = roof_height_m(flats, out.box.is_empty() ? 0 : out.box.max.z);
   out.gable = gabled_roof(flats);
-  if (take_ground(flats, out))
-    std::erase_if(out.walls,
-                  [&](const UprightWall& wall) { return looks_at_own_ground(wall, out); });
-  out.walls.shrink_to_fit();
-  return out;
+  if (take_ground(flats, out, shape))
+    std::erase_if(shape.walls,
+                  [&](const UprightWall& wall) { return looks_at_own_ground(wall, shape); });
+  shape.walls.shrink_to_fit();
+  return {std::move(out), std::move(shape)};
 }
 
-std::vector<std::vector<Outline>> moved_ground(const StandingBuilding& building, Vec3 moved_m) {
-  std::vector<std::vector<Outline>> out = building.ground;
+std::vector<std::vector<Outline>> moved_ground(const StandingShape& shape, Vec3 moved_m) {
+  std::vector<std::vector<Outline>> out = shape.ground;
   for (auto& piece : out)
     for (Outline& outline : piece)
       for (Vec3& p : outline) p = {p.x + moved_m.x, p.y + moved_m.y, 0};

@@ -4,8 +4,10 @@
 #include "kernel/model/building.h"
 #include "kernel/model/vec3.h"
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oriel {
@@ -25,17 +27,21 @@ struct GabledRoof {
   double ridge_m = 0, eaves_m = 0;
 };
 
-/// What is kept of a building so that others know that it stands there.
-struct StandingBuilding {
-  std::string id;
-  std::string crs;
-  Vec3 origin_m;  ///< Frame::origin_m
-  Box box;        ///< in the frame
+/// What others see of a building: its outlines, in its frame.
+struct StandingShape {
   std::vector<UprightWall> walls;
   /// The ground that it covers, seen from above: polygons within half a metre of its lowest point
   /// that are not steep, or all that are not steep if these cover less than half of what the others
   /// do. z = 0, outer outlines counter-clockwise. Pieces may lie on each other in the latter case.
   std::vector<std::vector<detail::Outline>> ground;
+};
+
+/// What is known of a building at any time, its outlines apart.
+struct StandingBuilding {
+  std::string id;
+  int system = -1;  ///< a number for Frame::crs, the same for those that have the same
+  Vec3 origin_m;    ///< Frame::origin_m
+  Box box;          ///< in the frame
   double ground_m2 = 0;
   double ground_m = 0;  ///< z of its lowest point
   /// The mean height of what is seen of its roofs from above, by area, z in the frame.
@@ -45,13 +51,19 @@ struct StandingBuilding {
   std::optional<GabledRoof> gable{};
 };
 
+/// One of them with its outlines, which are there as long as this is.
+struct ShapedBuilding {
+  const StandingBuilding& known;
+  std::shared_ptr<const StandingShape> shape;
+};
+
+/// What is kept of a building so that others know that it stands there; its `system` is not set.
 /// Walls below a twentieth of a square metre and polygons without area are left out, and so are
 /// those of up to four square metres that look at ground of the building itself, such as the sides
 /// and the pane of a window: nothing can stand against them.
-StandingBuilding standing_building(const Building& building);
+std::pair<StandingBuilding, StandingShape> standing_building(const Building& building);
 
-/// Its ground in another frame, in which its own lies at `moved_m`; z = 0.
-std::vector<std::vector<detail::Outline>> moved_ground(const StandingBuilding& building,
-                                                       Vec3 moved_m);
+/// Ground in another frame, in which its own lies at `moved_m`; z = 0.
+std::vector<std::vector<detail::Outline>> moved_ground(const StandingShape& shape, Vec3 moved_m);
 
 }  // namespace oriel

@@ -64,7 +64,7 @@ std::vector<std::string> files_of_neighbours(const RunOptions& options) {
   return files;
 }
 
-void find_neighbours(RunOptions& options, Report& report) {
+void find_neighbours(RunOptions& options, Report& report, const std::string& output) {
   if (options.neighbours_of.empty()) return;
   const std::vector<std::string> files = files_of_neighbours(options);
   if (files.empty() && std::ranges::count(options.inputs, "-") > 0)
@@ -72,7 +72,7 @@ void find_neighbours(RunOptions& options, Report& report) {
         "--neighbours",
         "stdin can be read only once, and neighbours are looked for before the first building is "
         "written: name a file that has all buildings, --neighbours=FILE");
-  auto search = std::make_shared<NeighbourSearch>();
+  auto search = std::make_shared<NeighbourSearch>(ScratchSpace{.beside = output});
   for (const std::string& input : options.inputs)
     if (input != "-") add_input(input, options, *search);
   for (const std::string& file : files) {

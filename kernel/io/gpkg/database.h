@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernel/base/nameless_file.h"
 #include "kernel/io/gpkg/gpkg_row.h"
-#include "kernel/io/gpkg/nameless_file.h"
 
 #include <memory>
 #include <string>

@@ -1,4 +1,4 @@
-#include "kernel/io/gpkg/nameless_file.h"
+#include "kernel/base/nameless_file.h"
 
 #include "kernel/base/issue.h"
 
@@ -35,10 +35,10 @@ void NamelessFile::forget_name() {
   name_.clear();
 }
 
-void NamelessFile::fail(int reason) const {
+void NamelessFile::fail(int reason, const char* what) const {
   Issue issue;
   issue.code = Code::E601;
-  issue.sentence = "cannot be written: " + std::generic_category().message(reason);
+  issue.sentence = std::string(what) + ": " + std::generic_category().message(reason);
   issue.place.file = about_;
   throw OutputError(std::move(issue));
 }
@@ -73,6 +73,16 @@ void NamelessFile::read(const std::function<std::size_t(std::string_view)>& take
     if (got == 0) return;
     place += static_cast<off_t>(size);
     piece.erase(0, take(piece));
+  }
+}
+
+void NamelessFile::read_at(std::uint64_t place, std::span<char> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t got = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) fail(got < 0 ? errno : EIO, "what was written cannot be read again");
+    place += static_cast<std::uint64_t>(got);
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }
 
