@@ -74,6 +74,8 @@ void RecordWorker::make_product(WorkItem& item) const {
     item.outcome.product = make();
   } catch (const std::bad_alloc&) {
     throw;  // no fault of the record's
+  } catch (const OutputError&) {
+    throw;  // nor is a scratch file that fails
   } catch (const std::exception& fault) {
     set_all_aside(item, Code::E901, fmt::format("a fault of oriel's own: {}", fault.what()));
     item.outcome.product = make();

@@ -1,4 +1,6 @@
 #include "cli/batch/arena.h"
+#include "cli/batch/inputs/input_files.h"
+#include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
@@ -37,6 +39,7 @@ struct ExperimentArguments {
   std::string folder;
   std::string cache;
   std::string progress;
+  std::vector<std::string> neighbours_of;
   int jobs = 1;
   bool is_resumed = false;
   bool is_forced = false;
@@ -154,12 +157,18 @@ ExitCode run(const ExperimentArguments& arguments) {
   NamedFiles names;
   for (const std::string& file : files_of_experiment(*plan.value))
     names.add_input("experiment", file);
+  ExperimentOptions options;
+  options.looks_at_neighbours = !arguments.neighbours_of.empty();
+  options.neighbours_of = files_of_neighbours(arguments.neighbours_of, "");
+  for (const std::string& file : options.neighbours_of) {
+    refuse_folder(file);
+    names.add_input("--neighbours", file);
+  }
   for (const char* output :
        {"results.csv", "report.md", "report.html", "tables.tex", "manifest.json"})
     names.add_output("-o", (fs::path(arguments.folder) / output).string());
   names.check();
   refuse_other_results(arguments, *plan.value);
-  ExperimentOptions options;
   options.program = program_name();
   options.cache = arguments.cache_folder();
   options.resumes = arguments.is_resumed;
@@ -204,6 +213,7 @@ void add_experiment_run(CLI::App& experiment, Action& action) {
                       "of the results)");
   command->add_flag("--force", arguments->is_forced,
                     "Replace the results of another experiment in the folder");
+  add_neighbours_argument(*command, arguments->neighbours_of);
   add_step_progress_argument(*command, arguments->progress);
   command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
   command->footer("Example:\n  oriel experiment run sweep.yaml -o results/ -j 0");

@@ -343,7 +343,7 @@ void add_explain(CLI::App& app, Action& action) {
       ->excludes(surface);
   add_rules_arguments(*command, *arguments);
   add_corrections_argument(*command, arguments->corrections_file);
-  add_neighbours_argument(*command, *arguments);
+  add_neighbours_argument(*command, arguments->neighbours_of);
   command
       ->add_option("--id", arguments->selection.ids,
                    "Only the building with this id; the others are read and skipped")

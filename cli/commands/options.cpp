@@ -294,8 +294,8 @@ void add_corrections_argument(CLI::App& command, std::string& file) {
                      "feature or point, class, by, why");
 }
 
-void add_neighbours_argument(CLI::App& command, RunOptions& a) {
-  command.add_flag("--neighbours", a.neighbours_of,
+void add_neighbours_argument(CLI::App& command, std::vector<std::string>& named) {
+  command.add_flag("--neighbours", named,
                    "Look which buildings of all inputs touch, for rules and results about party "
                    "walls, yards and streets. --neighbours=FILE also looks at the buildings of a "
                    "file or folder, which are not written; may be repeated");
@@ -344,7 +344,7 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   add_features_argument(command, a.features);
   add_columns_argument(command, a.columns);
   add_safe_cells_argument(command, a.has_safe_cells);
-  add_neighbours_argument(command, a);
+  add_neighbours_argument(command, a.neighbours_of);
   add_resume_argument(command, a);
   add_reuse_argument(command, a);
   add_force_argument(command, a);

@@ -88,7 +88,7 @@ void add_records_output(CLI::App& command, const std::string& option, std::strin
 void add_safe_cells_argument(CLI::App& command, bool& is_safe);
 
 /// Adds `--neighbours[=FILE]`.
-void add_neighbours_argument(CLI::App& command, RunOptions& arguments);
+void add_neighbours_argument(CLI::App& command, std::vector<std::string>& named);
 
 /// Adds `--corrections FILE`.
 void add_corrections_argument(CLI::App& command, std::string& file);

@@ -1,6 +1,7 @@
 #include "cli/batch/batch_command.h"
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/inputs/input_files.h"
+#include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/tiles_output.h"
@@ -56,6 +57,7 @@ ExitCode work(TilesCall& call) {
     if (has_errors(unfit)) return ExitCode::rules;
     call.profile = std::move(profile.value);
   }
+  find_neighbours(call, report, call.folder);
   return write_tiles(call, *rules, report);
 }
 
@@ -120,6 +122,7 @@ void add_tiles(CLI::App& app, Action& action) {
   add_line_arguments(*command, *call, true);
   add_rules_arguments(*command, *call);
   add_tileset_arguments(*command, *call);
+  add_neighbours_argument(*command, call->neighbours_of);
   add_resume_argument(*command, *call);
   command->footer(
       "Example:\n  oriel tiles city.city.jsonl -o tiles --scales 1:500,1:2500,1:10000 -j 0");

@@ -142,7 +142,7 @@ void add_view(CLI::App& app, Action& action) {
       "Write an HTML page that shows buildings; a click on a part shows its label and the reason");
   add_line_arguments(*command, *arguments, true);
   add_rules_arguments(*command, *arguments);
-  add_neighbours_argument(*command, *arguments);
+  add_neighbours_argument(*command, arguments->neighbours_of);
   command->add_option("-o,--output", arguments->out, "HTML file to write, or - for stdout")
       ->required();
   command->add_option(

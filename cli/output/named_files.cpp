@@ -63,7 +63,8 @@ void NamedFiles::add(const RunOptions& options) {
   offers_force_ = options.offers_force;
   is_forced_ = options.is_forced;
   for (const std::string& input : options.inputs) add_input("input", input);
-  for (const std::string& file : files_of_neighbours(options)) add_input("--neighbours", file);
+  for (const std::string& file : files_of_neighbours(options.neighbours_of, options.from))
+    add_input("--neighbours", file);
   for (const std::string& file : options.keep_free) add_input("--keep-free", file);
   add_output("--timings", options.timings_file);
   if (options.status_stem.empty()) return;

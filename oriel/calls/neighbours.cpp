@@ -37,6 +37,22 @@ void check_place(const std::vector<GroundArea>& areas, const NeighbourSearch& se
 
 }  // namespace
 
+void add_buildings(const std::string& file, const ReadOptions& options, NeighbourSearch& search,
+                   const std::function<void(const std::vector<Issue>&)>& tell) {
+  Reader reader(file, options);
+  while (const auto document = reader.next()) {
+    tell(document->issues);
+    if (!document->value) continue;
+    for (const Building& building : document->value->buildings) search.add(building);
+  }
+}
+
+std::vector<Issue> faults_beside(std::vector<Issue> issues) {
+  std::erase_if(issues, [](const Issue& issue) { return issue.severity != Severity::error; });
+  for (Issue& issue : issues) issue.severity = Severity::warning;
+  return issues;
+}
+
 std::shared_ptr<const KeptGround> read_kept_ground(const std::vector<std::string>& files,
                                                    const NeighbourSearch* search) {
   auto kept = std::make_shared<KeptGround>();

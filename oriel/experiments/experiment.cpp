@@ -5,6 +5,7 @@
 #include "oriel/experiments/paper/paper_tables.h"
 #include "oriel/experiments/part_runner.h"
 #include "oriel/experiments/sample_set.h"
+#include "oriel/neighbours.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -60,6 +61,8 @@ class ExperimentAtWork {
     Checked<ExperimentResults> results;
     report_features_without_models(plan_, results.issues);
     counted_ = hashed_files(plan_.count_as_paper, plan_, results.issues);
+    for (const std::string& file : options_.neighbours_of)
+      beside_.push_back({file, hash_of_file(file)});
     const auto rules = set_rules(results.issues);
     if (!has_errors(results.issues)) read_sets(results.issues);
     if (has_errors(results.issues)) return results;
@@ -111,6 +114,7 @@ class ExperimentAtWork {
       if (!has_errors(issues)) set.samples = stored_samples_of(set, issues);
       return;
     }
+    if (options_.looks_at_neighbours) look_around(set, issues);
     auto features = features_of(
         set, {pipeline_options(plan_.options, set.plan->ignores_semantics), std::nullopt});
     for (KeptFeatures& file : features) {
@@ -122,6 +126,22 @@ class ExperimentAtWork {
       set.buildings = measured_buildings(*set.plan, plan_, set.files, ids, issues);
     if (!has_errors(issues))
       set.samples = samples_of(all_of(std::move(features)), set.files.objects, set.buildings);
+  }
+
+  /// What is wrong with the models is found where they are measured.
+  void look_around(SampleSet& set, std::vector<Issue>& issues) const {
+    ReadOptions options;
+    if (plan_.options.lod) options.lod = *plan_.options.lod;
+    auto search = std::make_shared<NeighbourSearch>();
+    for (const HashedFile& file : set.files.models)
+      add_buildings(file.path, options, *search, [](const std::vector<Issue>&) {});
+    for (const HashedFile& file : beside_)
+      add_buildings(file.path, options, *search, [&](const std::vector<Issue>& found) {
+        add_issues(faults_beside(found), issues);
+      });
+    search->finish();
+    add_issues(search->issues(), issues);
+    set.neighbours = std::move(search);
   }
 
   [[nodiscard]] std::vector<Sample> stored_samples_of(const SampleSet& set,
@@ -139,7 +159,8 @@ class ExperimentAtWork {
     return all;
   }
 
-  std::vector<KeptFeatures> features_of(const SampleSet& set, const FeatureRecipe& recipe) {
+  std::vector<KeptFeatures> features_of(const SampleSet& set, FeatureRecipe recipe) {
+    recipe.neighbours = set.neighbours;
     return features_.features_of(
         set.files.models, recipe, options_.for_each, [&](std::size_t done) {
           step("features of " + set.plan->name, done, set.files.models.size());
@@ -184,6 +205,7 @@ class ExperimentAtWork {
         fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", options_.program, plan_.sha256, to_string(part),
                     set.plan->name, rules.sha256(), set.files.text());
     for (const ComparedPlan& compared : plan_.compare) key += compared.rules.base->sha256() + "\n";
+    if (set.neighbours) key += set.neighbours->sha256();
     return key;
   }
 
@@ -200,6 +222,7 @@ class ExperimentAtWork {
       add_inputs("truth", set.files.truth, results);
     }
     add_inputs("models", counted_, results);
+    add_inputs("neighbours", beside_, results);
     if (plan_.rules.base)
       results.inputs.push_back({"pack", plan_.rules.pack, plan_.rules.base->sha256()});
     for (const ComparedPlan& compared : plan_.compare)
@@ -213,6 +236,9 @@ class ExperimentAtWork {
         results.options.emplace_back(
             "segmentation of " + set.name,
             configuration(pipeline_options(plan_.options, set.ignores_semantics)));
+    for (const SampleSet& set : sets_)
+      if (set.neighbours)
+        results.options.emplace_back("neighbours of " + set.plan->name, set.neighbours->sha256());
     for (const ParamValue& param : plan_.rules.params)
       results.options.emplace_back(param.name, fmt::format("{}", param.value));
     return results;
@@ -235,6 +261,8 @@ class ExperimentAtWork {
   std::vector<SampleSet> sets_;
   /// Of which the paper's tests are counted.
   std::vector<HashedFile> counted_;
+  /// Whose buildings are only looked at.
+  std::vector<HashedFile> beside_;
 };
 
 }  // namespace

@@ -33,6 +33,11 @@ struct ExperimentOptions {
   std::string cache;
   /// Finished measurements are taken from there. Results are the same as without.
   bool resumes = false;
+  /// The models of each set, and the buildings of these files, are looked at as each other's
+  /// neighbours (LabelOptions::neighbours). A building that is disturbed is looked at where it then
+  /// stands, among the others as they are.
+  bool looks_at_neighbours = false;
+  std::vector<std::string> neighbours_of{};
   /// Shares of the work. Results do not depend on it.
   ForEachShare for_each = for_each_in_turn;
   /// Called from one thread, now and then.

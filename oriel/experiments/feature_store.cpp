@@ -8,7 +8,7 @@
 #include "kernel/io/records/feature_records.h"
 #include "oriel/experiments/perturb.h"
 #include "oriel/experiments/stored_samples.h"
-#include "oriel/segment.h"
+#include "oriel/pipeline/pipeline.h"
 #include "oriel/write.h"
 
 #include <algorithm>
@@ -61,8 +61,11 @@ void put_boxes(std::vector<FeatureRecord>& records, const std::vector<Box>& boxe
 void make_features(BuildingAtWork& work, const FeatureRecipe& recipe) {
   std::optional<Perturbed> changed;
   if (recipe.perturbation) changed = perturbed(work.building, *recipe.perturbation);
+  LabelOptions options;
+  static_cast<PipelineOptions&>(options) = recipe.options;
+  options.neighbours = recipe.neighbours;
   const PipelineResult result =
-      segment(changed ? changed->building : work.building, recipe.options);
+      run_pipeline(changed ? changed->building : work.building, nullptr, options);
   if (!result.is_done()) {
     const auto why = std::ranges::find(result.issues, Severity::error, &Issue::severity);
     work.fault = why == result.issues.end() ? Issue() : *why;
@@ -213,6 +216,7 @@ std::string temporary_folder() {
 
 std::string FeatureRecipe::text() const {
   std::string text = configuration(options);
+  if (neighbours) text += " neighbours=" + neighbours->sha256();
   if (!perturbation) return text;
   const Perturbation& p = *perturbation;
   return text + fmt::format(

@@ -3,10 +3,12 @@
 #include "interpret/experiment/parallel.h"
 #include "interpret/experiment/sample.h"
 #include "kernel/base/issue.h"
+#include "kernel/neighbours/neighbours.h"
 #include "kernel/perturb/perturb.h"
 #include "oriel/options.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,8 @@ struct KeptFeatures {
 struct FeatureRecipe {
   PipelineOptions options;
   std::optional<Perturbation> perturbation;
+  /// LabelOptions::neighbours.
+  std::shared_ptr<const NeighbourSearch> neighbours{};
 
   /// All that the features of a file depend on besides its bytes, as one text.
   [[nodiscard]] std::string text() const;

@@ -8,6 +8,7 @@
 #include "oriel/experiments/stored_samples.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ PipelineOptions pipeline_options(const SegmentationPlan& plan, bool ignores_sema
 struct SampleSet {
   const SetPlan* plan = nullptr;
   SetFiles files;
+  /// Of its models and what they are looked at with; null: nobody looks.
+  std::shared_ptr<const NeighbourSearch> neighbours;
   /// Those that are measured, in the order of their ids.
   std::vector<std::string> buildings;
   std::vector<Sample> samples;

@@ -268,7 +268,9 @@ void find_surfaces(const Building& building, const RuleBase& rules, const LabelO
 
 }  // namespace
 
+/// A scratch file that fails is none, and ends the run.
 Issue own_fault(const Building& building, const std::exception& fault) {
+  if (dynamic_cast<const OutputError*>(&fault) != nullptr) throw;
   return building_issue(Severity::error, Code::E901, building.id,
                         fmt::format("a fault of oriel's own: {}", fault.what()));
 }

@@ -66,7 +66,7 @@ void describe_all_surfaces(const Building& building, const Tolerances& tolerance
 void name_surfaces(const Building& building, const Tolerances& tolerances, const RuleBase& rules,
                    const LabelOptions& options, PipelineResult& result);
 
-/// E901.
+/// E901. Of an OutputError, which is no fault of the building, none: it is thrown on.
 Issue own_fault(const Building& building, const std::exception& fault);
 
 }  // namespace oriel

@@ -10,12 +10,13 @@ from typing import Any, Callable, Iterable, Optional, Union, overload
 
 from . import _oriel
 from ._oriel import Building, Explanation, Generalised, Issue, Repaired, Result
-from .buildings import Items, Path, buildings_of
+from .buildings import Items, Path, buildings_of, read
 from .packs import Rules, pack_of
 
 _BUDGET = 40_000_000
 
 Several = Union[Iterable[Building], Path]
+Neighbours = Union[bool, Path, Iterable[Path]]
 
 
 def _options(*, order: str = "natural", value_rel: float = 0.01, ignore_semantics: bool = False, codelist: str = "sig3d",
@@ -40,6 +41,15 @@ def _made(buildings: Any, work: Callable[[Building], Any], jobs: int, issues: It
         return work(buildings)
     several, files, found = buildings_of(buildings)
     return Items(_each(work, several, jobs), files, [*found, *issues])
+
+
+def _neighbours(buildings: list[Building], neighbours: Neighbours) -> tuple[Optional[_oriel.NeighbourSearch], list[Issue]]:
+    """What stands beside them, and what was found; nothing if nobody asks."""
+    if neighbours is False or neighbours is None:
+        return None, []
+    named = [] if neighbours is True else [neighbours] if isinstance(neighbours, (str, os.PathLike)) else list(neighbours)
+    others = [file for path in named for file in read(path).files]
+    return _oriel.neighbours_in(list(dict.fromkeys(building.file for building in buildings)), others)
 
 
 @overload
@@ -78,16 +88,19 @@ def segment(buildings: Any, *, order: str = "natural", coplanar_deg: float = 0.5
 def label(buildings: Building, rules: Rules = ..., *, codelist: str = ..., explain: bool = ..., repaired: bool = ...,
           ignore_semantics: bool = ..., order: str = ..., coplanar_deg: float = ...,
           plane_offset: Optional[float] = ..., weld: float = ..., value_rel: float = ..., close: str = ...,
-          close_area: float = ..., crossings: str = ..., budget: int = ..., jobs: int = ...) -> Result: ...
+          close_area: float = ..., crossings: str = ..., budget: int = ..., neighbours: Neighbours = ...,
+          jobs: int = ...) -> Result: ...
 @overload
 def label(buildings: Several, rules: Rules = ..., *, codelist: str = ..., explain: bool = ..., repaired: bool = ...,
           ignore_semantics: bool = ..., order: str = ..., coplanar_deg: float = ...,
           plane_offset: Optional[float] = ..., weld: float = ..., value_rel: float = ..., close: str = ...,
-          close_area: float = ..., crossings: str = ..., budget: int = ..., jobs: int = ...) -> Items[Result]: ...
+          close_area: float = ..., crossings: str = ..., budget: int = ..., neighbours: Neighbours = ...,
+          jobs: int = ...) -> Items[Result]: ...
 def label(buildings: Any, rules: Rules = "residential", *, codelist: str = "sig3d", explain: bool = False,
           repaired: bool = False, ignore_semantics: bool = False, order: str = "natural", coplanar_deg: float = 0.5,
           plane_offset: Optional[float] = None, weld: float = 0.001, value_rel: float = 0.01, close: str = "ground",
-          close_area: float = 10.0, crossings: str = "leave", budget: int = _BUDGET, jobs: int = 1) -> Any:
+          close_area: float = 10.0, crossings: str = "leave", budget: int = _BUDGET, neighbours: Neighbours = False,
+          jobs: int = 1) -> Any:
     """Names the features and surfaces of buildings by the rules of a pack (docs/rules.md).
 
     It does what segment() does, with the same options, then runs the rules over the features.
@@ -97,14 +110,22 @@ def label(buildings: Any, rules: Rules = "residential", *, codelist: str = "sig3
     explain: the reason for every label and surface is written, as oriel_why.
     repaired: the valid solid of each building is written, as repair makes it, with its labels.
     ignore_semantics: what the input calls its polygons is not looked at.
+    neighbours: it is looked which buildings touch, for party walls, yards and streets (docs/generalisation.md): True of
+    all buildings of the files that the given ones are from, or also of those of a file or of several, named here.
 
-    Raises Error if the pack has faults. The result depends on the building, the pack and the options only.
+    Raises Error if the pack has faults. The result depends on the building, the pack and the options only, and on its
+    neighbours.
     """
     pack = pack_of(rules)
     options = _options(order=order, coplanar_deg=coplanar_deg, plane_offset=plane_offset, weld=weld, value_rel=value_rel,
                        close=close, close_area=close_area, crossings=crossings, budget=budget, codelist=codelist,
                        explain=explain, repaired=repaired, ignore_semantics=ignore_semantics)
-    return _made(buildings, lambda building: _oriel.label(building, pack._base, options), jobs, pack.issues)
+    several, files, found = buildings_of(buildings)
+    search, beside = _neighbours(several, neighbours)
+    if isinstance(buildings, Building):
+        return _oriel.label(buildings, pack._base, options, search)
+    made = _each(lambda building: _oriel.label(building, pack._base, options, search), several, jobs)
+    return Items(made, files, [*found, *pack.issues, *beside])
 
 
 @overload
@@ -152,13 +173,14 @@ def _profiles(to_lod: Union[str, Iterable[str]], profile: str) -> list[str]:
 @overload
 def generalise(buildings: Union[Building, Result], *, scale: Union[str, float, None] = ...,
                to_lod: Union[str, Iterable[str]] = ..., profile: str = ..., edge_min: Optional[float] = ...,
-               rules: Rules = ..., jobs: int = ...) -> Generalised: ...
+               rules: Rules = ..., neighbours: Neighbours = ..., jobs: int = ...) -> Generalised: ...
 @overload
 def generalise(buildings: Union[Several, Iterable[Result]], *, scale: Union[str, float, None] = ...,
                to_lod: Union[str, Iterable[str]] = ..., profile: str = ..., edge_min: Optional[float] = ...,
-               rules: Rules = ..., jobs: int = ...) -> Items[Generalised]: ...
+               rules: Rules = ..., neighbours: Neighbours = ..., jobs: int = ...) -> Items[Generalised]: ...
 def generalise(buildings: Any, *, scale: Union[str, float, None] = None, to_lod: Union[str, Iterable[str]] = (),
-               profile: str = "", edge_min: Optional[float] = None, rules: Rules = "residential", jobs: int = 1) -> Any:
+               profile: str = "", edge_min: Optional[float] = None, rules: Rules = "residential",
+               neighbours: Neighbours = False, jobs: int = 1) -> Any:
     """Redraws buildings for a target scale or levels of detail, as closed solids (docs/generalisation.md).
 
     buildings: what label() gave, whose rules and options hold then; or buildings, which are labelled by `rules` first.
@@ -166,6 +188,9 @@ def generalise(buildings: Any, *, scale: Union[str, float, None] = None, to_lod:
     to_lod: levels of detail to make, such as "2.0" or ("2.0", "1.2"), all in one file.
     profile: what to do with features that the pack has no entry for: NAME[:LEVEL] or a file.
     edge_min: least length of an edge and width of a gap, in m, instead of the profile's.
+    neighbours: as label() takes it; what was labelled already has the neighbours that label() was given. Where the
+    profile asks for it, buildings that touch become one: the others of them are `is_gone` and leave the file, which can
+    be written as CityJSON, CityJSONSeq and CityGML.
 
     What is valid at no scale stays unchanged; what is rejected has an error in its `issues`. Raises Error if a profile
     has faults, E125 for a scale below 1 and R275 for a level that the profile does not have.
@@ -177,18 +202,20 @@ def generalise(buildings: Any, *, scale: Union[str, float, None] = None, to_lod:
         raise ValueError("generalise() needs a scale, to_lod or a profile")
     if edge_min is not None and not profiles:
         raise ValueError("edge_min works only with profile or to_lod")
-    labelled = _labelled(buildings, rules, jobs)
+    labelled = _labelled(buildings, rules, neighbours, jobs)
+    one = labelled if isinstance(labelled, Result) else next(iter(labelled), None)
     targets, issues = _oriel.targets(None if scale is None else _denominator(scale), profiles, edge_min,
-                                     _base_of(labelled, rules))
+                                     _base_of(labelled, rules), one is not None and one.has_neighbours)
+    groups = None if one is None else _oriel.groups_of(one, targets)
     if isinstance(labelled, Result):
-        return _oriel.generalise(labelled, targets)
+        return _oriel.generalise(labelled, targets, groups)
     files = labelled.files if isinstance(labelled, Items) else []
     found = labelled.issues if isinstance(labelled, Items) else []
-    drawn = _each(lambda one: _oriel.generalise(one, targets), list(labelled), jobs)
+    drawn = _each(lambda result: _oriel.generalise(result, targets, groups), list(labelled), jobs)
     return Items(drawn, files, [*found, *issues])
 
 
-def _labelled(buildings: Any, rules: Rules, jobs: int) -> Any:
+def _labelled(buildings: Any, rules: Rules, neighbours: Neighbours, jobs: int) -> Any:
     """Results as they are; what was only read is labelled."""
     if isinstance(buildings, Result):
         return buildings
@@ -196,7 +223,7 @@ def _labelled(buildings: Any, rules: Rules, jobs: int) -> Any:
         buildings = list(buildings)
     if isinstance(buildings, (list, Items)) and all(isinstance(one, Result) for one in buildings):
         return buildings
-    return label(buildings, rules, jobs=jobs)
+    return label(buildings, rules, neighbours=neighbours, jobs=jobs)
 
 
 def _base_of(labelled: Any, rules: Rules) -> _oriel.RuleBase:

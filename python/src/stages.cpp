@@ -1,6 +1,7 @@
 #include "oriel/explain.h"
 #include "oriel/generalise.h"
 #include "oriel/label.h"
+#include "oriel/neighbours.h"
 #include "oriel/repair.h"
 #include "oriel/rules.h"
 #include "oriel/segment.h"
@@ -52,16 +53,17 @@ class RedrawnBuilding final : public MadeItem {
   [[nodiscard]] const std::vector<Issue>& issues() const override { return drawn_.issues; }
   [[nodiscard]] StlSolids solids() const override { return solids_; }
   [[nodiscard]] bool is_drawn() const {
+    if (drawn_.leads_group || drawn_.is_gone) return drawn_.leads_group;
     return labelled_->result().is_done() && (!labelled_->result().is_open || drawn_.repaired);
   }
   void add_to(OutputRecord& output, std::vector<Issue>& /*issues*/) const override {
-    if (is_drawn()) add(drawn_, output);
+    if (is_drawn() || drawn_.is_gone) add(drawn_, output);
   }
   [[nodiscard]] const PipelineResult* labelled() const override {
     return drawn_.repaired ? &*drawn_.repaired : &labelled_->result();
   }
   const RuleBase* count(std::map<std::string, int>& labels) const override {
-    if (!drawn_.levels.empty() && is_drawn()) {
+    if (!drawn_.levels.empty() && is_drawn() && !drawn_.leads_group) {
       const PipelineResult& from = drawn_.repaired ? *drawn_.repaired : labelled_->result();
       for (const auto& [label, number] : count_labels(from.interpretation)) labels[label] += number;
       for (const auto& [label, number] : drawn_.levels[0].removed) labels[label] -= number;
@@ -149,10 +151,30 @@ void check_codelist(const RuleBase& rules, const std::string& codelist) {
                                       fmt::join(known, ", ")));
 }
 
+/// All buildings of the files that are worked on, and of others; nothing that is wrong with the
+/// former is told, of the others what cost buildings.
+std::pair<std::shared_ptr<NeighbourSearch>, std::vector<Issue>> neighbours_in(
+    const std::vector<std::shared_ptr<ReadFile>>& files,
+    const std::vector<std::shared_ptr<ReadFile>>& others) {
+  auto search = std::make_shared<NeighbourSearch>();
+  std::vector<Issue> issues;
+  for (const auto* several : {&files, &others})
+    for (const auto& file : *several)
+      for (const Document& record : file->records)
+        for (const Building& building : record.buildings) search->add(building);
+  for (const auto& file : others)
+    for (Issue& issue : faults_beside(file->issues)) issues.push_back(std::move(issue));
+  search->finish();
+  issues.insert(issues.end(), search->issues().begin(), search->issues().end());
+  return {std::move(search), std::move(issues)};
+}
+
 std::shared_ptr<StageResult> label_building(const ReadBuilding& of, const RuleBase& rules,
-                                            const StageOptions& asked) {
+                                            const StageOptions& asked,
+                                            const std::shared_ptr<NeighbourSearch>& neighbours) {
   check_codelist(rules, asked.codelist);
   StageOptions options = for_building(asked, of);
+  options.neighbours = neighbours;
   options.measures_surfaces = false;
   std::optional<Building> alone;
   if (options.is_on_solid) alone = without_installations(of.building());
@@ -178,7 +200,7 @@ std::shared_ptr<RepairedBuilding> repair_building(const ReadBuilding& of,
 std::pair<Targets, std::vector<Issue>> targets_of(std::optional<double> scale,
                                                   const std::vector<std::string>& profiles,
                                                   std::optional<double> edge_min,
-                                                  const RuleBase& rules) {
+                                                  const RuleBase& rules, bool has_neighbours) {
   Targets targets;
   std::vector<Issue> issues;
   if (scale && !(*scale >= 1 && std::isfinite(*scale)))
@@ -190,7 +212,7 @@ std::pair<Targets, std::vector<Issue>> targets_of(std::optional<double> scale,
     if (!loaded.value) throw InputError(loaded.issues.front());
     issues.insert(issues.end(), loaded.issues.begin(), loaded.issues.end());
     const ProfileUse use = scale ? ProfileUse::scale : ProfileUse::level;
-    for (Issue& issue : check_profile(*loaded.value, rules, use))
+    for (Issue& issue : check_profile(*loaded.value, rules, use, has_neighbours))
       issues.push_back(std::move(issue));
     if (edge_min) loaded.value = with_edge_min(std::move(*loaded.value), *edge_min);
     targets.profiles.push_back(std::move(*loaded.value));
@@ -198,14 +220,34 @@ std::pair<Targets, std::vector<Issue>> targets_of(std::optional<double> scale,
   return {std::move(targets), std::move(issues)};
 }
 
+/// Rows and blocks, and the search that they are of.
+struct GroupsOfSearch {
+  std::shared_ptr<const NeighbourSearch> search;
+  CityGroups groups;
+};
+
+/// Those that the profile asks for at the scale, for what was labelled with neighbours; else null.
+std::shared_ptr<GroupsOfSearch> groups_of(const StageResult& labelled, const Targets& targets) {
+  const auto& search = labelled.options().neighbours;
+  if (!search || !targets.scale || targets.profiles.empty() ||
+      !asks_for_groups(targets.profiles[0], *targets.scale))
+    return nullptr;
+  return std::make_shared<GroupsOfSearch>(
+      GroupsOfSearch{search, CityGroups(*search, targets.profiles[0], *targets.scale)});
+}
+
 std::shared_ptr<RedrawnBuilding> redraw_building(const std::shared_ptr<const StageResult>& labelled,
-                                                 const Targets& targets) {
+                                                 const Targets& targets,
+                                                 const std::shared_ptr<GroupsOfSearch>& groups) {
   if (!labelled->rules())
     throw py::value_error("the building was segmented only; generalise() takes what label() gives");
   if (labelled->options().is_on_solid)
     throw py::value_error("labels are on a repaired solid; label without repaired=True");
+  StageOptions options = labelled->options();
+  if (groups && groups->search == options.neighbours)
+    options.groups = std::shared_ptr<const CityGroups>(groups, &groups->groups);
   auto drawn = generalise(labelled->of().document(), labelled->of().building(), labelled->result(),
-                          *labelled->rules(), targets, labelled->options());
+                          *labelled->rules(), targets, options);
   const bool is_by_class = std::ranges::any_of(targets.profiles, &Profile::names_classes);
   return std::make_shared<RedrawnBuilding>(
       labelled, is_by_class ? StlSolids::by_class : StlSolids::by_label, std::move(drawn));
@@ -346,8 +388,13 @@ std::string state_of(const StageResult& self) {
 void bind_results(py::module_& module) {
   py::class_<StageOptions>(module, "StageOptions").def(py::init(&options_of));
   py::class_<Targets>(module, "Targets").def("__str__", &Targets::text);
+  py::class_<NeighbourSearch, std::shared_ptr<NeighbourSearch>>(module, "NeighbourSearch");
+  py::class_<GroupsOfSearch, std::shared_ptr<GroupsOfSearch>>(module, "Groups");
   py::class_<StageResult, MadeItem, std::shared_ptr<StageResult>>(
       module, "Result", "All that segment() or label() found of a building.")
+      .def_property_readonly(
+          "has_neighbours", [](const StageResult& r) { return r.options().neighbours != nullptr; },
+          "It was looked which other buildings stand beside it.")
       .def_property_readonly(
           "is_done", [](const StageResult& r) { return r.result().is_done(); },
           "It came to its features; if not, `issues` has the error.")
@@ -390,6 +437,9 @@ void bind_results(py::module_& module) {
       .def_property_readonly("is_drawn", &RedrawnBuilding::is_drawn,
                              "It was redrawn; if not, `issues` says why.")
       .def_property_readonly(
+          "is_gone", [](const RedrawnBuilding& r) { return r.drawn().is_gone; },
+          "It became part of another building and leaves the file.")
+      .def_property_readonly(
           "removed",
           [](const RedrawnBuilding& r) {
             return r.drawn().levels.empty() ? std::map<std::string, int>{}
@@ -425,7 +475,9 @@ void bind_stages(py::module_& module) {
   bind_explanations(module);
   bind_results(module);
   module.def("segment", &segment_building, Unlocked());
+  module.def("neighbours_in", &neighbours_in, Unlocked());
   module.def("label", &label_building, Unlocked());
+  module.def("groups_of", &groups_of, Unlocked());
   module.def("repair", &repair_building, Unlocked());
   module.def("targets", &targets_of, Unlocked());
   module.def("generalise", &redraw_building, Unlocked());

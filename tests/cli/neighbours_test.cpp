@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -27,6 +28,15 @@ Outcome grouped(const Folder& folder, const std::vector<Place>& places,
 }
 
 json output_of(const Folder& folder) { return json::parse(bytes_of(folder / "out.city.json")); }
+
+/// A tile has a label, in its table of features.
+bool has_tile_with(const std::string& tileset, const std::string& label) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(tileset))
+    if (entry.path().extension() == ".glb" &&
+        bytes_of(entry.path()).find(label) != std::string::npos)
+      return true;
+  return false;
+}
 
 /// The lines after the header, sorted.
 std::vector<std::string> sorted_lines(const std::string& path) {
@@ -234,5 +244,35 @@ TEST_SUITE("cli") {
                folder / "out.city.json"})
               .exit == 0);
     CHECK(ids_in(output_of(folder)) == std::set<std::string>{"a", "b"});
+  }
+
+  TEST_CASE("tiles are labelled with their neighbours in view") {
+    const Folder folder;
+    const std::string city = town(folder, 6);
+    const std::string pack =
+        folder.write("front.yaml",
+                     "schema: oriel/1\npack: {name: front, version: 1.0.0}\nclasses: {front: {}}\n"
+                     "rules:\n  - {id: f, label: front, require: faces_street}\n");
+    const auto tiled = [&](const std::string& out, const std::vector<std::string>& more) {
+      std::vector<std::string> call{"tiles", city,         "--rules",  pack,
+                                    "-o",    folder / out, "--scales", "1:500"};
+      call.insert(call.end(), more.begin(), more.end());
+      return run(call);
+    };
+    const Outcome alone = tiled("alone", {}), beside = tiled("beside", {"--neighbours"});
+    CHECK(alone.exit <= 3);
+    CHECK(beside.exit <= 3);
+    CHECK_FALSE(has_tile_with(folder / "alone", "front"));
+    CHECK(has_tile_with(folder / "beside", "front"));
+    // Half of it, with the whole town to look at.
+    const std::vector<std::string> lines = lines_of(bytes_of(city));
+    const std::string half =
+        folder.write("half.city.jsonl", lines[0] + "\n" + lines[1] + "\n" + lines[2] + "\n");
+    CHECK(run({"tiles", half, "--rules", pack, "-o", folder / "half", "--scales", "1:500",
+               "--neighbours=" + city})
+              .exit <= 3);
+    CHECK(has_tile_with(folder / "half", "front"));
+    CHECK(run({"tiles", half, "-o", folder / "x", "--neighbours=" + folder / "no.city.json"})
+              .says("E101"));
   }
 }

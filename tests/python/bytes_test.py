@@ -3,7 +3,7 @@ import json
 import unittest
 
 import oriel
-from support import HOUSE, SAMPLES, TRUTH, FolderTest, run, stripped_samples
+from support import GENERATE, HOUSE, SAMPLES, TRUTH, FolderTest, run, stripped_samples
 
 
 class BytesTest(FolderTest):
@@ -45,6 +45,33 @@ class BytesTest(FolderTest):
         labelled = SAMPLES / "house.labelled.city.json"
         self.compare(".city.json", oriel.label(labelled, ignore_semantics=True), "label", labelled, "--existing", "replace",
                      "--ignore-semantics", existing="replace")
+
+    def test_neighbours(self):
+        city = self.folder / "town.city.jsonl"
+        run("--style", "city", "--count", 16, "--seed", 5, "-o", city, command=GENERATE)
+        self.compare(".city.jsonl", oriel.label(city, neighbours=True, jobs=2), "label", city, "--neighbours")
+        self.assertIn("oriel_party_wall", (self.folder / "ours.city.jsonl").read_text())
+        lines = city.read_text().splitlines(keepends=True)
+        half = self.folder / "half.city.jsonl"
+        half.write_text("".join(lines[:9]))
+        self.compare(".city.jsonl", oriel.label(half, neighbours=city), "label", half, f"--neighbours={city}")
+        one = oriel.label(oriel.read(half)[2], neighbours=[city])
+        self.assertTrue(one.has_neighbours)
+        self.assertEqual(oriel.to_text(one).splitlines()[3], (self.folder / "theirs.city.jsonl").read_text().splitlines()[3])
+        self.compare(".city.jsonl", oriel.generalise(city, scale=2000, neighbours=True), "generalise", city, "--scale",
+                     "1:2000", "--neighbours")
+
+    def test_rows_and_blocks(self):
+        city, town = self.folder / "town.city.jsonl", self.folder / "town.yaml"
+        run("--style", "city", "--count", 16, "--seed", 5, "-o", city, command=GENERATE)
+        town.write_text("schema: oriel-profile/1\nprofile: {name: town, version: 1.0.0}\nlevels:\n  map: {form: as-is, "
+                        "map-mm: 0.3, verdicts: {point: omit}, buildings: {aggregate: touching, gap-mm: 0.2}}\n")
+        drawn = oriel.generalise(city, scale=10000, profile=str(town), neighbours=True)
+        self.compare(".city.jsonl", drawn, "generalise", city, "--scale", "1:10000", "--profile", town, "--neighbours")
+        self.assertTrue(any(one.is_gone for one in drawn))
+        alone = oriel.generalise(city, scale=10000, profile=str(town))
+        self.assertEqual([issue.code for issue in alone.issues if issue.code == "R277"], ["R277"])
+        self.assertFalse(any(one.is_gone for one in alone))
 
     def test_meshes(self):
         for name in (".gml", ".gpkg", ".obj", ".off", ".ply", ".stl"):

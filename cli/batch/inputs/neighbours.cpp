@@ -3,7 +3,6 @@
 #include "cli/batch/inputs/input_files.h"
 #include "kernel/base/log.h"
 #include "oriel/neighbours.h"
-#include "oriel/read.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,29 +17,10 @@ namespace oriel::cli {
 
 namespace {
 
-/// Calls tell(issues) for what is wrong in the file.
-template <class Tell>
-void add_buildings_of(const std::string& file, const RunOptions& options, NeighbourSearch& search,
-                      Tell tell) {
-  Reader reader(file, options.read_options(file));
-  while (const auto document = reader.next()) {
-    tell(document->issues);
-    if (!document->value) continue;
-    for (const Building& building : document->value->buildings) search.add(building);
-  }
-}
-
-/// Errors of a file that is only looked at cost its buildings, not the run: they are warnings.
-std::vector<Issue> as_warnings(std::vector<Issue> issues) {
-  std::erase_if(issues, [](const Issue& issue) { return issue.severity != Severity::error; });
-  for (Issue& issue : issues) issue.severity = Severity::warning;
-  return issues;
-}
-
 /// The run itself says what is wrong with an input.
 void add_input(const std::string& file, const RunOptions& options, NeighbourSearch& search) {
   try {
-    add_buildings_of(file, options, search, [](const std::vector<Issue>&) {});
+    add_buildings(file, options.read_options(file), search, [](const std::vector<Issue>&) {});
   } catch (const InputError&) {
     run_log().debug("neighbours: {} cannot be read", file);
   }
@@ -48,16 +28,16 @@ void add_input(const std::string& file, const RunOptions& options, NeighbourSear
 
 }  // namespace
 
-std::vector<std::string> files_of_neighbours(const RunOptions& options) {
+std::vector<std::string> files_of_neighbours(const std::vector<std::string>& named,
+                                             const std::string& from) {
   std::vector<std::string> files;
-  for (const std::string& named : options.neighbours_of) {
-    if (named == kInputsOnly) continue;
+  for (const std::string& name : named) {
+    if (name == kInputsOnly) continue;
     std::error_code error;
-    const auto in_folder = std::filesystem::is_directory(named, error)
-                               ? files_in(named, options.from)
-                               : std::vector<std::string>{};
+    const auto in_folder = std::filesystem::is_directory(name, error) ? files_in(name, from)
+                                                                      : std::vector<std::string>{};
     if (in_folder.empty())
-      files.push_back(named);
+      files.push_back(name);
     else
       files.insert(files.end(), in_folder.begin(), in_folder.end());
   }
@@ -66,7 +46,7 @@ std::vector<std::string> files_of_neighbours(const RunOptions& options) {
 
 void find_neighbours(RunOptions& options, Report& report, const std::string& output) {
   if (options.neighbours_of.empty()) return;
-  const std::vector<std::string> files = files_of_neighbours(options);
+  const std::vector<std::string> files = files_of_neighbours(options.neighbours_of, options.from);
   if (files.empty() && std::ranges::count(options.inputs, "-") > 0)
     throw CLI::ValidationError(
         "--neighbours",
@@ -77,8 +57,8 @@ void find_neighbours(RunOptions& options, Report& report, const std::string& out
     if (input != "-") add_input(input, options, *search);
   for (const std::string& file : files) {
     refuse_folder(file);
-    add_buildings_of(file, options, *search,
-                     [&](const std::vector<Issue>& issues) { report.add(as_warnings(issues)); });
+    add_buildings(file, options.read_options(file), *search,
+                  [&](const std::vector<Issue>& issues) { report.add(faults_beside(issues)); });
   }
   search->finish();
   report.add(search->issues());

@@ -1,4 +1,5 @@
 #include "tests/cli/command.h"
+#include "tests/cli/street.h"
 
 #include <algorithm>
 #include <csignal>
@@ -318,5 +319,37 @@ TEST_SUITE("cli/experiment") {
     CHECK(schema["properties"].size() == 15);
     for (const auto& [key, property] : schema["properties"].items())
       CHECK_MESSAGE((property.contains("description") || property.contains("const")), key);
+  }
+
+  TEST_CASE("an experiment looks at neighbours if it is asked to") {
+    const Folder folder;
+    folder.write("e.yaml", experiment_on_samples("sweep: {params: [narrowest], values: 2}\n"));
+    // Nobody looks out of walls at which another house stands.
+    const std::string beside =
+        folder.write("beside.city.json",
+                     boxes({{"b", 0, 8.48, 10.66, 10, 12}, {"r", 10.66, 0, 9, 8.48, 12}}).dump());
+    const auto results = [&](const std::string& out, const std::vector<std::string>& more) {
+      const Outcome made = run_experiment_in(folder, out, more);
+      CAPTURE(made.err);
+      CHECK(made.exit <= 3);
+      return results_in(folder / out);
+    };
+    const auto alone = results("alone", {});
+    const auto seen = results("seen", {"--neighbours=" + beside, "-j", "2"});
+    const auto again = results("seen", {"--neighbours=" + beside, "--resume"});
+    CHECK(seen == again);
+    const auto table = [](const auto& files) {
+      return std::ranges::find(files, "results.csv", [](const auto& file) { return file.first; })
+          ->second;
+    };
+    CHECK(table(seen) != table(alone));
+    CHECK(table(results("among", {"--neighbours"})) == table(alone));
+    const auto manifest = nlohmann::json::parse(bytes_of(folder / "seen/manifest.json"));
+    CHECK(manifest["options"].contains("neighbours of samples"));
+    CHECK(std::ranges::count(manifest["inputs"], "neighbours", [](const auto& input) {
+            return input["kind"].template get<std::string>();
+          }) == 1);
+    CHECK(run_experiment_in(folder, "no", {"--neighbours=" + (folder / "no.city.json")})
+              .says("E101"));
   }
 }
