@@ -90,8 +90,12 @@ std::string scratch_folder(const std::string& output) {
   struct stat found {};
   const bool is_there = ::stat(output.c_str(), &found) == 0;
   std::error_code error;
-  if (output == "-" || (is_there && !S_ISREG(found.st_mode)))
-    return std::filesystem::temp_directory_path(error).string();
+  if (output == "-" || (is_there && !S_ISREG(found.st_mode))) {
+    const std::string folder = std::filesystem::temp_directory_path(error).string();
+    if (!error) return folder;
+    const char* const named = std::getenv("TMPDIR");
+    return named != nullptr ? named : "/tmp";
+  }
   const std::filesystem::path folder = std::filesystem::path(output).parent_path();
   return folder.empty() ? "." : folder.string();
 }

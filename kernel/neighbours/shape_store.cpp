@@ -96,20 +96,20 @@ class Unpacker {
 }  // namespace
 
 void ShapeStore::open_file() {
-  file_ = std::make_unique<NamelessFile>(folder_, folder_);
+  file_ = std::make_unique<NamelessFile>(folder_, folder_ + "/.oriel-outlines");
   file_->forget_name();
   end_ = 0;
 }
 
 void ShapeStore::write(const std::string& bytes) {
   file_->append(bytes);
-  extents_.push_back({end_, bytes.size()});
+  spans_.push_back({end_, bytes.size()});
   end_ += bytes.size();
 }
 
 void ShapeStore::move_to_disk() {
   open_file();
-  for (const Shape& shape : held_) write(packed(*shape));
+  for (const HeldShape& shape : held_) write(packed(*shape));
   held_ = {};
 }
 
@@ -122,7 +122,7 @@ void ShapeStore::add(StandingShape shape) {
 
 void ShapeStore::arrange(std::span<const std::size_t> kept, std::span<const std::size_t> by_place) {
   if (file_) return write_tiles(kept, by_place);
-  std::vector<Shape> held;
+  std::vector<HeldShape> held;
   held.reserve(kept.size());
   for (const std::size_t i : kept) held.push_back(std::move(held_[i]));
   held_ = std::move(held);
@@ -133,29 +133,29 @@ void ShapeStore::write_tiles(std::span<const std::size_t> kept,
                              std::span<const std::size_t> by_place) {
   file_->flush();
   const std::unique_ptr<NamelessFile> unsorted = std::move(file_);
-  const std::vector<Extent> extents = std::exchange(extents_, {});
+  const std::vector<StoredSpan> spans = std::exchange(spans_, {});
   open_file();
   where_.resize(kept.size());
   std::string bytes;
   for (std::size_t position = 0; position < by_place.size(); ++position) {
-    const Extent& from = extents[kept[by_place[position]]];
+    const StoredSpan& from = spans[kept[by_place[position]]];
     where_[by_place[position]] = static_cast<std::uint32_t>(position);
-    if (slots_.empty() || slots_.back().extent.bytes >= kTile_bytes)
+    if (slots_.empty() || slots_.back().span.bytes >= kTile_bytes)
       slots_.push_back({{end_, 0}, position, nullptr, used_.end()});
     bytes.resize(from.bytes);
     unsorted->read_at(from.place, bytes);
     file_->append(bytes);
     end_ += bytes.size();
-    slots_.back().extent.bytes += bytes.size();
+    slots_.back().span.bytes += bytes.size();
   }
   file_->flush();
 }
 
-std::shared_ptr<const ShapeStore::Tile> ShapeStore::read(const TileSlot& slot,
-                                                         std::size_t shapes) const {
-  std::string bytes(slot.extent.bytes, '\0');
-  file_->read_at(slot.extent.place, bytes);
-  auto tile = std::make_shared<Tile>();
+std::shared_ptr<const ShapeStore::ShapeTile> ShapeStore::read(const TileSlot& slot,
+                                                              std::size_t shapes) const {
+  std::string bytes(slot.span.bytes, '\0');
+  file_->read_at(slot.span.place, bytes);
+  auto tile = std::make_shared<ShapeTile>();
   tile->shapes.reserve(shapes);
   Unpacker unpacker(bytes);
   for (std::size_t i = 0; i < shapes; ++i) {
@@ -166,7 +166,7 @@ std::shared_ptr<const ShapeStore::Tile> ShapeStore::read(const TileSlot& slot,
 }
 
 /// Two threads may read the same tile at the same time; they read the same.
-std::shared_ptr<const ShapeStore::Tile> ShapeStore::tile_at(std::size_t number) const {
+std::shared_ptr<const ShapeStore::ShapeTile> ShapeStore::tile_at(std::size_t number) const {
   TileSlot& slot = slots_[number];
   {
     const std::lock_guard lock(mutex_);
@@ -176,7 +176,7 @@ std::shared_ptr<const ShapeStore::Tile> ShapeStore::tile_at(std::size_t number) 
     }
   }
   const std::size_t end = number + 1 < slots_.size() ? slots_[number + 1].first : where_.size();
-  std::shared_ptr<const Tile> tile = read(slot, end - slot.first);
+  std::shared_ptr<const ShapeTile> tile = read(slot, end - slot.first);
   const std::lock_guard lock(mutex_);
   if (slot.tile) return tile;
   slot.tile = tile;
@@ -196,7 +196,7 @@ std::shared_ptr<const StandingShape> ShapeStore::at(std::size_t i) const {
   const std::size_t position = where_[i];
   const auto next = std::ranges::upper_bound(slots_, position, {}, &TileSlot::first);
   const auto number = static_cast<std::size_t>(next - slots_.begin()) - 1;
-  const std::shared_ptr<const Tile> tile = tile_at(number);
+  const std::shared_ptr<const ShapeTile> tile = tile_at(number);
   return {tile, &tile->shapes[position - slots_[number].first]};
 }
 

@@ -20,7 +20,7 @@ namespace oriel::detail {
 /// are held at a time. What the file does not take or give back is an OutputError E601.
 class ShapeStore {
  public:
-  /// The file is made in the folder once it is needed.
+  /// The file is made in the folder once it is needed; issues call it FOLDER/.oriel-outlines.
   ShapeStore(std::size_t held_bytes, std::string folder)
       : held_bytes_(held_bytes), folder_(std::move(folder)) {}
 
@@ -34,20 +34,20 @@ class ShapeStore {
   [[nodiscard]] bool is_on_disk() const { return file_ != nullptr; }
 
  private:
-  using Shape = std::shared_ptr<const StandingShape>;
-  struct Extent {
+  using HeldShape = std::shared_ptr<const StandingShape>;
+  struct StoredSpan {
     std::uint64_t place = 0;
     std::size_t bytes = 0;
   };
-  struct Tile {
+  struct ShapeTile {
     std::vector<StandingShape> shapes;
     std::size_t bytes = 0;  ///< in memory
   };
   /// Where a tile is in the file, and in memory if it is there.
   struct TileSlot {
-    Extent extent;
+    StoredSpan span;
     std::size_t first = 0;  ///< position of its first shape
-    std::shared_ptr<const Tile> tile;
+    std::shared_ptr<const ShapeTile> tile;
     std::list<std::size_t>::iterator used;
   };
 
@@ -55,16 +55,17 @@ class ShapeStore {
   void write(const std::string& bytes);
   void move_to_disk();
   void write_tiles(std::span<const std::size_t> kept, std::span<const std::size_t> by_place);
-  [[nodiscard]] std::shared_ptr<const Tile> read(const TileSlot& slot, std::size_t shapes) const;
-  [[nodiscard]] std::shared_ptr<const Tile> tile_at(std::size_t number) const;
+  [[nodiscard]] std::shared_ptr<const ShapeTile> read(const TileSlot& slot,
+                                                      std::size_t shapes) const;
+  [[nodiscard]] std::shared_ptr<const ShapeTile> tile_at(std::size_t number) const;
 
   std::size_t held_bytes_;
   std::string folder_;
-  std::vector<Shape> held_;  ///< while none is on disk
-  std::size_t bytes_ = 0;    ///< of them
+  std::vector<HeldShape> held_;  ///< while none is on disk
+  std::size_t bytes_ = 0;        ///< of them
   std::unique_ptr<NamelessFile> file_;
   std::uint64_t end_ = 0;             ///< of the file
-  std::vector<Extent> extents_;       ///< in the order of add(), until arrange()
+  std::vector<StoredSpan> spans_;     ///< in the order of add(), until arrange()
   std::vector<std::uint32_t> where_;  ///< position in the file, by number
 
   mutable std::mutex mutex_;

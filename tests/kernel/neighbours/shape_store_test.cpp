@@ -153,7 +153,7 @@ TEST_SUITE("kernel/neighbours") {
       FAIL("nothing was thrown");
     } catch (const OutputError& error) {
       CHECK(error.issue().code == Code::E601);
-      CHECK(error.issue().place.file == folder);
+      CHECK(error.issue().place.file == folder + "/.oriel-outlines");
     }
   }
 }
