@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -132,6 +133,8 @@ class Attacher {
            Attach kind, const Clearance& clearance)
       : solid_(solid), contacts_(std::move(contacts)), kind_(kind), clearance_(clearance) {
     clearance_.least_m = std::max(clearance.least_m, detail::kLeastEdge_m);
+    for (const FacetId own : clearance_.own)
+      for_each_edge(own, [this](int a, int b) { own_edges_.emplace(b, a); });
     const Plane& first = plane_of(contacts_[0]);
     planes_.push_back(kind == Attach::raise ? exact::opposite(first) : first);
     if (contacts_.size() == 2) {
@@ -225,12 +228,24 @@ class Attacher {
         return s >= detail::kLeastEdge_m && s <= length(to - from) - detail::kLeastEdge_m &&
                length(corner(c) - from - s * along) < detail::kLeastEdge_m;
       };
-      if (!fits(notch_.first) || !fits(notch_.second)) return;
+      const bool is_within = fits(notch_.first) && fits(notch_.second);
+      if (!is_within && !(gets_tab() && is_spanned(from, to))) return;
+      is_wide_ = !is_within;
       edge_ = {a, b};
       if (dot(corner(notch_.second) - corner(notch_.first), along) < 0)
         std::swap(notch_.first, notch_.second);
     });
     return edge_.first >= 0;
+  }
+  /// The edge of the body in both contacts reaches past a segment at both of its ends.
+  [[nodiscard]] bool is_spanned(Vec3 from, Vec3 to) const {
+    const Vec3 p = corner(notch_.first), along = normalised(corner(notch_.second) - p);
+    const double length_m = length(corner(notch_.second) - p);
+    return std::ranges::all_of(std::array{from, to}, [&](Vec3 end) {
+      const double s = dot(end - p, along);
+      return s >= detail::kLeastEdge_m && s <= length_m - detail::kLeastEdge_m &&
+             length(end - p - s * along) < detail::kLeastEdge_m;
+    });
   }
   [[nodiscard]] bool is_on_second(int c) const {
     return std::ranges::find(body_.loops[1], c) != body_.loops[1].end();
@@ -251,27 +266,48 @@ class Attacher {
     bool is_clear = true;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int p = loop[i], q = loop[(i + 1) % loop.size()];
-      if (is_of_notch(p) && is_of_notch(q)) continue;
       const bool is_outside = contact == 1 && gets_tab();
-      if (!is_of_notch(p) && detail::contains(outlines, normal, corner(p)) == is_outside)
-        return false;
+      const bool is_at_edge = is_of_notch(p) && !(is_wide_ && contact == 0);
+      if (!is_at_edge && detail::contains(outlines, normal, corner(p)) == is_outside) return false;
+      if (is_of_notch(p) && is_of_notch(q)) continue;
       for_each_edge(contacts_[contact], [&](int a, int b) {
         // The edge that is cut is the body's own: its height or depth lies between.
         if (std::pair{a, b} == edge_ || std::pair{b, a} == edge_) return;
-        const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
-        const LineSegment mine{corner(p), corner(q)};
-        is_clear =
-            is_clear && (is_far_off(mine, edge) ||
-                         !detail::is_too_near(clearance_, detail::distance(mine, edge), edge));
+        is_clear = is_clear && keeps_off({corner(p), corner(q)}, a, b);
       });
     }
+    if (is_wide_ && contact == 0) is_clear = is_clear && has_clear_ends();
     // A hole of the facet may lie inside the outline.
     detail::Outline mine;
     for (const int c : loop) mine.push_back(corner(c));
     const std::array<detail::Outline, 1> only{mine};
-    for (const detail::Outline& other : outlines)
-      if (detail::contains(only, normal, other[0])) return false;
+    for (std::size_t o = 0; o < outlines.size(); ++o)
+      if (!(is_wide_ && has_cut_edge(facet(contacts_[contact]).loops[o])) &&
+          detail::contains(only, normal, outlines[o][0]))
+        return false;
     return is_clear;
+  }
+  /// What is longer than the edge that it shares: beside the ends of that edge.
+  [[nodiscard]] bool has_clear_ends() const {
+    const auto [a, b] = edge_;
+    const LineSegment first{corner(notch_.first), solid_.vertices[at(a)].point};
+    const LineSegment second{corner(notch_.second), solid_.vertices[at(b)].point};
+    bool is_clear = true;
+    for_each_edge(contacts_[0], [&](int v, int w) {
+      if (v == a || v == b || w == a || w == b) return;
+      is_clear = is_clear && keeps_off(first, v, w) && keeps_off(second, v, w);
+    });
+    return is_clear;
+  }
+  [[nodiscard]] bool has_cut_edge(const Loop& loop) const {
+    return std::ranges::find(loop, edge_.first) != loop.end();
+  }
+  /// A segment keeps its distance from an edge of a contact.
+  [[nodiscard]] bool keeps_off(const LineSegment& mine, int a, int b) const {
+    const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
+    if (own_edges_.contains({a, b})) return detail::distance(mine, edge) >= detail::kLeastEdge_m;
+    return is_far_off(mine, edge) ||
+           !detail::is_too_near(clearance_, detail::distance(mine, edge), edge);
   }
   /// Their boxes are further apart than the clearance: their distance need not be known.
   [[nodiscard]] bool is_far_off(const LineSegment& p, const LineSegment& q) const {
@@ -308,7 +344,8 @@ class Attacher {
       const Vec3 normal = solid_.planes[other.plane.index()].normal;
       if (detail::area_within(solid_.vertices, other, normal, limits) <= detail::kTouch_m2)
         continue;
-      const double near_m = nearest_before(FacetId{f});
+      const bool is_own = std::ranges::find(clearance_.own, FacetId{f}) != clearance_.own.end();
+      const double near_m = is_own ? 0 : nearest_before(FacetId{f});
       if (near_m >= clearance_.least_m ||
           detail::area_within(solid_.vertices, other, normal, grown_by(kNearly * near_m)) >
               detail::kTouch_m2)
@@ -376,6 +413,8 @@ class Attacher {
   int first_vertex_ = 0;               ///< of the solid, for the body's corners
   std::pair<int, int> notch_{-1, -1};  ///< corners on both contacts, along the first one's edge
   std::pair<int, int> edge_{-1, -1};   ///< the solid's edge they lie on, of the first contact
+  bool is_wide_ = false;               ///< the notch is longer than that edge
+  std::set<std::pair<int, int>> own_edges_;  ///< of facets beside Clearance::own
 };
 
 }  // namespace

@@ -31,6 +31,9 @@ struct Clearance {
   /// The outlines on the first contact of what the body takes the place of: to what was nearer than
   /// `least_m` to one of them it may come as near.
   std::vector<std::vector<Vec3>> before;
+  /// Facets of what the body belongs to, such as a window of its sill: it may come as near to them
+  /// as is possible at all.
+  std::vector<FacetId> own{};
 };
 
 /// Puts a convex body onto a planar facet, or sinks it into the solid behind that facet.
@@ -38,9 +41,10 @@ struct Clearance {
 /// The body is what lies behind all `planes`, whose normals point out of it, and in front of the
 /// first contact's plane (raise) or behind it (sink). `contacts` is one facet, or two that share a
 /// straight edge if the body ends at the second one, too (a door that reaches the ground, or stands
-/// on the slab before it). The first contact gets a hole with the body's outline; at a second one
-/// it gets a notch, and the second one a notch or a tab, whichever closes the solid. All other
-/// sides of the body become new facets without polygons.
+/// on the slab before it, a sill that ends where its window begins). The first contact gets a hole
+/// with the body's outline; at a second one it gets a notch, and the second one a notch or a tab,
+/// whichever closes the solid. The edge that they share is longer than the body there or, if the
+/// second one gets a tab, shorter. All other sides of the body become new facets without polygons.
 ///
 /// The result is closed and exact by construction: its vertices are meetings of three planes, those
 /// of `planes` and of the contacts. It is refused with a reason

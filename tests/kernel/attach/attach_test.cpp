@@ -73,6 +73,23 @@ TEST_SUITE("kernel/attach") {
     CHECK(made.facets.size() == 4);
   }
 
+  TEST_CASE("a sill wider than the window that it ends at runs on into the window") {
+    const auto made = window(block(), {4, 0, 3}, {5, 0.2, 4});
+    REQUIRE(made.solid);
+    FacetId floor;
+    for (const FacetId id : made.facets)
+      if (made.solid->planes[made.solid->facets[id.index()].plane.index()].normal.z > 0) floor = id;
+    const auto planes = box_planes(*made.solid, {3.9, -0.1, 2.9}, {5.1, 0, 3}, {{0, 1, 0}, kUp});
+    Clearance clearance(0.3);
+    const std::vector<FacetId> contacts{facet_looking(*made.solid, kFront), floor};
+    CHECK_FALSE(attach(*made.solid, contacts, planes, Attach::raise, clearance).solid);
+    clearance.own = made.facets;
+    const auto sill = attach(*made.solid, contacts, planes, Attach::raise, clearance);
+    check_volume(sill, 480 - 0.2 + 1.2 * 0.1 * 0.1);
+    CHECK(sill.facets.size() == 4);
+    CHECK(sill.solid->facets.size() == made.solid->facets.size() + 4);
+  }
+
   TEST_CASE("a door that stands on a slab before its wall has the slab run into it") {
     const Solid solid =
         solid_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).add({2, -2, 0}, {8, 0, 3}).build());
