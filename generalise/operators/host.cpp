@@ -171,8 +171,8 @@ Extents extents_of(const Host& host, const Segmentation& segmentation, const Fea
 
 Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
              const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
-             const std::vector<int>& polygons) {
-  return with_polygons(attach(solid, contacts, planes, kind, clearance), polygons);
+             const std::vector<int>& polygons, Solid* spare) {
+  return with_polygons(attach(solid, contacts, planes, kind, clearance, spare), polygons);
 }
 
 Placed place_across(const Solid& solid, const BlockAcross& block, const Clearance& clearance,
@@ -181,7 +181,7 @@ Placed place_across(const Solid& solid, const BlockAcross& block, const Clearanc
 }
 
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
-                 const Clearance& clearance, const std::vector<int>& polygons) {
+                 const Clearance& clearance, const std::vector<int>& polygons, Solid* spare) {
   const bool is_wall = looks_aside(host.n);
   const Vec3 up = is_wall ? kUp : up_the_roof(solid, host);
   const auto point = [&](double u, double v) {
@@ -195,9 +195,9 @@ Placed place_box(const Solid& solid, const Host& host, Extents where, double dep
   planes.push_back(kind == Attach::sink ? parallel(solid, host.plane, -depth_m, -1)
                                         : parallel(solid, host.plane, depth_m, 1));
   const auto foot = is_wall ? level_at_foot(solid, host, where) : std::nullopt;
-  if (foot) return place(solid, {host.facet, *foot}, planes, kind, clearance, polygons);
+  if (foot) return place(solid, {host.facet, *foot}, planes, kind, clearance, polygons, spare);
   planes.push_back(plane(-up, where.u0, where.v0));
-  return place(solid, {host.facet}, planes, kind, clearance, polygons);
+  return place(solid, {host.facet}, planes, kind, clearance, polygons, spare);
 }
 
 Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,
@@ -228,13 +228,13 @@ Placed draw_outline(const Solid& solid, const Host& host, const Extents& where,
 
 Placed place_like(const Solid& solid, const Segmentation& segmentation, const Host& host,
                   const Extents& where, double depth_m, Sense sense, const Clearance& clearance,
-                  const Feature& like) {
+                  const Feature& like, Solid* spare) {
   if (meets_imprints(solid, segmentation, host, where, clearance))
     return {std::nullopt, "it would come too near to another part"};
   if (sense != Sense::imprint)
     return place_box(solid, host, where, depth_m,
                      sense == Sense::hole ? Attach::sink : Attach::raise, clearance,
-                     like.source_polygons);
+                     like.source_polygons, spare);
   if (!lies_clear(solid, host, where, clearance))
     return {std::nullopt, "its outline does not fit into the facet"};
   return draw_outline(solid, host, where, like);

@@ -66,14 +66,15 @@ struct Placed {
 /// A recess or a block with the outline u0…u1 × v0…v1 on a host and the given depth; its facets get
 /// `polygons`. Its sides are horizontal and vertical if the host is a wall. One whose lower edge
 /// lies on the lower edge of the wall stands on what is level there: the ground, which a recess is
-/// open to, or a slab or a plinth before the wall.
+/// open to, or a slab or a plinth before the wall. `spare` as attach() has it.
 Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
-                 const Clearance& clearance, const std::vector<int>& polygons);
+                 const Clearance& clearance, const std::vector<int>& polygons,
+                 Solid* spare = nullptr);
 
-/// Attaches a body and gives its facets `polygons`.
+/// Attaches a body and gives its facets `polygons`. `spare` as attach() has it.
 Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
              const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
-             const std::vector<int>& polygons);
+             const std::vector<int>& polygons, Solid* spare = nullptr);
 
 /// The same of a block that stands across edges of a roof.
 Placed place_across(const Solid& solid, const BlockAcross& block, const Clearance& clearance,
@@ -82,10 +83,10 @@ Placed place_across(const Solid& solid, const BlockAcross& block, const Clearanc
 /// What takes the place of openings of one kind on their host: sunk in like a hole, put on like a
 /// protrusion, or drawn like an imprint, whose polygons and semantics are those of `like`. Refused
 /// if it would come nearer than the clearance to another imprint that stays on the host, or as
-/// place_box says; an outline may end at the lower edge of its wall.
+/// place_box says; an outline may end at the lower edge of its wall. `spare` as attach() has it.
 Placed place_like(const Solid& solid, const Segmentation& segmentation, const Host& host,
                   const Extents& where, double depth_m, Sense sense, const Clearance& clearance,
-                  const Feature& like);
+                  const Feature& like, Solid* spare = nullptr);
 
 /// Keeps `least_m` from all parts but those that features were nearer to, whose extents on their
 /// host these are: they are taken off, and what is drawn takes their place.

@@ -70,16 +70,23 @@ std::optional<MemberRow> row_of(const Redrawing& task, const Host& host) {
 }
 
 /// Draws what takes the place of members of a row, on the facet of their wall that its middle is
-/// in: what stands on a wall may divide it.
+/// in: what stands on a wall may divide it. `spare` as attach() has it.
 Placed put(const MemberRow& row, const Solid& solid, const Extents& where, double depth_m,
-           Sense sense, const Feature& like) {
+           Sense sense, const Feature& like, Solid* spare = nullptr) {
   const Host& one = row.host;
   const Vec3 middle = (where.u0 + where.u1) / 2 * one.u + (where.v0 + where.v1) / 2 * one.v +
                       one.plane.offset_m * one.n;
   const auto host = detail::host_at(solid, one.plane, middle);
   if (!host) return {std::nullopt, "its outline does not fit into the facet"};
   return place_like(solid, row.task.segmentation, *host, where, depth_m, sense, row.clearance(),
-                    like);
+                    like, spare);
+}
+
+/// The same beside what is placed of the row already, which gives up its solid.
+Placed put_next(const MemberRow& row, Placed& placed, const Extents& where, double depth_m,
+                Sense sense, const Feature& like) {
+  if (!placed.solid) return put(row, row.task.solid, where, depth_m, sense, like);
+  return put(row, *placed.solid, where, depth_m, sense, like, &*placed.solid);
 }
 
 /// `count` copies of a row's mean, `grown` times as large, from its first to its last edge.
@@ -96,8 +103,7 @@ Placed typified(const MemberRow& row, const RowMeans& means, std::size_t count, 
     where.u1 = where.u0 + width;
     where.v0 = means.middle - height / 2;
     where.v1 = means.middle + height / 2;
-    placed = put(row, placed.solid ? *placed.solid : row.task.solid, where, means.depth, sense,
-                 row.task.feature(i));
+    placed = put_next(row, placed, where, means.depth, sense, row.task.feature(i));
     if (!placed.solid) return placed;
   }
   return placed;
@@ -119,8 +125,7 @@ Placed thinned_out(const MemberRow& row, std::size_t count, double wider, double
     where.v0 -= more_v / 2;
     where.v1 += more_v / 2;
     const Feature& feature = row.task.feature(member);
-    placed = put(row, placed.solid ? *placed.solid : row.task.solid, where, row.depths[member],
-                 feature.sense, feature);
+    placed = put_next(row, placed, where, row.depths[member], feature.sense, feature);
     if (!placed.solid) return placed;
     stays.push_back(member);
   }

@@ -2,6 +2,7 @@
 
 #include "kernel/attach/clearance.h"
 #include "kernel/attach/new_facet.h"
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
@@ -130,8 +131,13 @@ using LineSegment = std::pair<Vec3, Vec3>;
 class Attacher {
  public:
   Attacher(const Solid& solid, std::vector<FacetId> contacts, const std::vector<Plane>& planes,
-           Attach kind, const Clearance& clearance)
-      : solid_(solid), contacts_(std::move(contacts)), kind_(kind), clearance_(clearance) {
+           Attach kind, const Clearance& clearance, Solid* spare)
+      : solid_(solid),
+        contacts_(std::move(contacts)),
+        kind_(kind),
+        clearance_(clearance),
+        spare_(spare) {
+    ORIEL_ASSERT(spare == nullptr || spare == &solid);
     clearance_.least_m = std::max(clearance.least_m, detail::kLeastEdge_m);
     for (const FacetId own : clearance_.own)
       for_each_edge(own, [this](int a, int b) { own_edges_.emplace(b, a); });
@@ -147,7 +153,10 @@ class Attacher {
   Attached run() {
     if (const char* reason = why_not()) return {std::nullopt, {}, reason};
     Attached out;
-    out.solid = solid_;
+    if (spare_ != nullptr)
+      out.solid = std::move(*spare_);
+    else
+      out.solid = solid_;
     add_vertices(*out.solid);
     for (int p = static_cast<int>(contacts_.size()); p < std::ssize(planes_); ++p)
       if (!body_.loops[at(p)].empty()) add_facet(p, out);
@@ -408,6 +417,7 @@ class Attacher {
   std::vector<Plane> planes_;  ///< out of the body, those of the contacts first
   Attach kind_;
   Clearance clearance_;
+  Solid* spare_;  ///< the solid, if it may be taken for the result
   detail::ConvexBody body_;
   std::vector<Vec3> points_;           ///< of the body's corners
   int first_vertex_ = 0;               ///< of the solid, for the body's corners
@@ -420,8 +430,9 @@ class Attacher {
 }  // namespace
 
 Attached attach(const Solid& solid, const std::vector<FacetId>& contacts,
-                const std::vector<Plane>& planes, Attach kind, const Clearance& clearance) {
-  return Attacher(solid, contacts, planes, kind, clearance).run();
+                const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
+                Solid* spare) {
+  return Attacher(solid, contacts, planes, kind, clearance, spare).run();
 }
 
 Plane plane_through(const Solid& solid, Vec3 direction, Vec3 point, double within_deg) {

@@ -55,8 +55,12 @@ struct Clearance {
 ///    planes does not count. Decided in doubles, whose error is far below 1 mm, the least clearance
 ///    that is taken.
 /// `planes` must have coefficients as exact.h allows and offsets on the solid's grid.
+///
+/// `spare`, if given, is `solid` itself: the result is made of it, not of a copy. It stays as it is
+/// if the body is refused.
 Attached attach(const Solid& solid, const std::vector<FacetId>& contacts,
-                const std::vector<Plane>& planes, Attach kind, const Clearance& clearance);
+                const std::vector<Plane>& planes, Attach kind, const Clearance& clearance,
+                Solid* spare = nullptr);
 
 /// The plane with the normal of an existing plane of the solid (or of its opposite) that is no more
 /// than `within_deg` off `direction`, else with `direction` itself rounded to integers, through
