@@ -32,6 +32,17 @@ def run(*call, ok=(0, 3)):
     return done
 
 
+def measured(*call):
+    """Seconds by the clock and the peak of memory in MB of a call."""
+    start = time.perf_counter()
+    with subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode not in (0, 3):
+        sys.exit(f"{' '.join(call)}: exit code {process.returncode}")
+    return time.perf_counter() - start, usage.ru_maxrss / 1000
+
+
 def features(path):
     """(id, attributes, polygons) of every building, each polygon a list of rings of points."""
     with open(path) as file:
@@ -278,7 +289,7 @@ def main():
     parser.add_argument("--houses", type=int, default=320)
     parser.add_argument("--tile")
     parser.add_argument("--scales", default="10000,25000")
-    parser.add_argument("--times", default="", help="numbers of houses for which the search is timed")
+    parser.add_argument("--times", default="", help="numbers of houses for which the search is measured: time and memory")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         profile = os.path.join(folder, "town.yaml")
@@ -295,12 +306,10 @@ def main():
                 one_hash(asked.oriel, path, profile, asked.scales.split(",")[0], folder, name)
         for count in filter(None, asked.times.split(",")):
             run(asked.generate, "--style", "city", "--count", count, "--seed", "5", "-o", source)
-            seconds = []
-            for more in ([], ["--neighbours"]):
-                start = time.perf_counter()
-                run(asked.oriel, "label", source, "--id", "none", "-o", os.path.join(folder, "n.city.jsonl"), *more)
-                seconds.append(time.perf_counter() - start)
-            print(json.dumps({"houses": int(count), "search_s": round(seconds[1] - seconds[0], 2)}), flush=True)
+            call = (asked.oriel, "label", source, "--id", "house-000001", "-o", os.path.join(folder, "n.city.jsonl"))
+            (alone_s, alone_mb), (search_s, search_mb) = measured(*call), measured(*call, "--neighbours")
+            print(json.dumps({"houses": int(count), "search_s": round(search_s - alone_s, 2), "alone_mb": round(alone_mb),
+                              "search_mb": round(search_mb)}), flush=True)
 
 
 if __name__ == "__main__":
