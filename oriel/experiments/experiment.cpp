@@ -48,12 +48,19 @@ void report_features_without_models(const ExperimentPlan& plan, std::vector<Issu
   }
 }
 
-/// An experiment at work.
+std::vector<HashedFile> with_hashes(const std::vector<std::string>& paths) {
+  std::vector<HashedFile> files;
+  for (const std::string& path : paths) files.push_back({path, hash_of_file(path)});
+  return files;
+}
+
+/// An experiment at work. A file to look at that is not there is told before any folder is made.
 class ExperimentAtWork {
  public:
   ExperimentAtWork(const ExperimentPlan& plan, const ExperimentOptions& options)
       : plan_(plan),
         options_(options),
+        beside_(with_hashes(options.neighbours_of)),
         features_(options.cache.empty() ? "" : options.cache + "/features", options.program),
         measured_(options.cache.empty() ? "" : options.cache + "/measured") {}
 
@@ -61,8 +68,6 @@ class ExperimentAtWork {
     Checked<ExperimentResults> results;
     report_features_without_models(plan_, results.issues);
     counted_ = hashed_files(plan_.count_as_paper, plan_, results.issues);
-    for (const std::string& file : options_.neighbours_of)
-      beside_.push_back({file, hash_of_file(file)});
     const auto rules = set_rules(results.issues);
     if (!has_errors(results.issues)) read_sets(results.issues);
     if (has_errors(results.issues)) return results;
@@ -256,13 +261,13 @@ class ExperimentAtWork {
 
   const ExperimentPlan& plan_;
   const ExperimentOptions& options_;
+  /// Whose buildings are only looked at.
+  std::vector<HashedFile> beside_;
   FeatureStore features_;
   MeasuredStore measured_;
   std::vector<SampleSet> sets_;
   /// Of which the paper's tests are counted.
   std::vector<HashedFile> counted_;
-  /// Whose buildings are only looked at.
-  std::vector<HashedFile> beside_;
 };
 
 }  // namespace
