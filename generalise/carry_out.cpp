@@ -244,8 +244,9 @@ class InvariantEnforcer {
           new_short_edges(solid_, solid, segmentation_, out.removed, invariants_.least_edge_m),
           segmentation_, out.changed, out.removed, invariants_.least_edge_m);
     };
+    const detail::StayingFeatures staying(segmentation_, out.removed);
     order.keeps_facet = [&](const Solid& solid, const Facet& facet) {
-      return detail::why_it_stays(solid, facet, segmentation_, out.removed);
+      return staying.why_it_stays(solid, facet);
     };
     Cleared cleared = clear_edges(std::move(out.solid), order, validator_);
     out.solid = std::move(cleared.solid);

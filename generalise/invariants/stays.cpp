@@ -19,26 +19,6 @@ std::set<int> polygons_named(const Solid& solid) {
   return polygons;
 }
 
-/// A facet of a solid, to be asked for what lies in it.
-class FacetPlace {
- public:
-  FacetPlace(const Solid& solid, const Facet& facet) : plane_(solid.planes[facet.plane.index()]) {
-    for (const int v : facet.loops[0]) box_.grow(solid.vertices[at(v)].point);
-  }
-
-  /// The outline, if there is one, lies in the facet.
-  [[nodiscard]] bool has(const Loop& outline, const Segmentation& segmentation) const {
-    if (outline.empty()) return false;
-    const Vec3 corner = segmentation.vertices[at(outline[0])].point;
-    return std::abs(dot(plane_.normal, corner) - plane_.offset_m) <= kOnBox_m &&
-           contains(box_, corner, kOnBox_m);
-  }
-
- private:
-  const Plane& plane_;
-  Box box_;
-};
-
 }  // namespace
 
 bool loses_what_stays(const Solid& before, const Solid& left, const Segmentation& segmentation,
@@ -63,21 +43,34 @@ bool loses_what_stays(const Solid& before, const Solid& left, const Segmentation
   return false;
 }
 
-std::optional<std::string> why_it_stays(const Solid& left, const Facet& facet,
-                                        const Segmentation& segmentation,
-                                        const std::vector<FeatureId>& removed) {
-  std::vector<int> others = facet.polygons;
-  const FacetPlace place(left, facet);
+StayingFeatures::StayingFeatures(const Segmentation& segmentation,
+                                 const std::vector<FeatureId>& removed) {
   for (int i = 0; i < std::ssize(segmentation.features); ++i) {
     if (std::ranges::binary_search(removed, FeatureId{i})) continue;
     const Feature& feature = segmentation.features[at(i)];
-    if (place.has(feature.outline, segmentation)) return "an outline is drawn in it";
-    if (others.empty()) continue;
-    std::erase_if(others, [&](int polygon) {
-      return std::ranges::binary_search(feature.source_polygons, polygon);
-    });
+    if (!feature.outline.empty())
+      outlines_.push_back(segmentation.vertices[at(feature.outline[0])].point);
+    polygons_.insert(polygons_.end(), feature.source_polygons.begin(),
+                     feature.source_polygons.end());
   }
-  if (!facet.polygons.empty() && others.empty()) return "it is of a feature that stays";
+  std::ranges::sort(polygons_);
+}
+
+std::optional<std::string> StayingFeatures::why_it_stays(const Solid& left,
+                                                         const Facet& facet) const {
+  const Plane& plane = left.planes[facet.plane.index()];
+  Box box;
+  for (const int v : facet.loops[0]) box.grow(left.vertices[at(v)].point);
+  const auto lies_in = [&](Vec3 corner) {
+    return std::abs(dot(plane.normal, corner) - plane.offset_m) <= kOnBox_m &&
+           contains(box, corner, kOnBox_m);
+  };
+  if (std::ranges::any_of(outlines_, lies_in)) return "an outline is drawn in it";
+  const auto is_theirs = [&](int polygon) {
+    return std::ranges::binary_search(polygons_, polygon);
+  };
+  if (!facet.polygons.empty() && std::ranges::all_of(facet.polygons, is_theirs))
+    return "it is of a feature that stays";
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
+#include "kernel/model/vec3.h"
 
 #include <optional>
 #include <string>
@@ -15,11 +16,19 @@ namespace oriel::detail {
 bool loses_what_stays(const Solid& before, const Solid& left, const Segmentation& segmentation,
                       const std::vector<FeatureId>& gone);
 
-/// Why a facet of what is left cannot be taken out: an outline of a feature that is not among the
-/// `removed` (ascending) will be drawn in it, or all its polygons are of such a feature. Nothing if
-/// it can.
-std::optional<std::string> why_it_stays(const Solid& left, const Facet& facet,
-                                        const Segmentation& segmentation,
-                                        const std::vector<FeatureId>& removed);
+/// The features that are not among the `removed` (ascending).
+class StayingFeatures {
+ public:
+  StayingFeatures(const Segmentation& segmentation, const std::vector<FeatureId>& removed);
+
+  /// Why a facet of what is left cannot be taken out: an outline of such a feature will be drawn in
+  /// it, or all its polygons are of such features. Nothing if it can.
+  [[nodiscard]] std::optional<std::string> why_it_stays(const Solid& left,
+                                                        const Facet& facet) const;
+
+ private:
+  std::vector<Vec3> outlines_;  ///< a corner of each
+  std::vector<int> polygons_;   ///< ascending
+};
 
 }  // namespace oriel::detail
