@@ -5,6 +5,7 @@
 #include "generalise/tasks.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <set>
@@ -14,6 +15,13 @@
 namespace oriel {
 
 namespace {
+
+/// As many features are drawn in a step for each corner of the solid: what is near is sought for
+/// each of them.
+constexpr std::int64_t kDrawnPerStep = 4;
+
+/// As many changes are tried to find what hinders an operator.
+constexpr std::size_t kTriesForNeeds = 8;
 
 class StepRunner {
  public:
@@ -175,6 +183,10 @@ class StepRunner {
       if (std::ranges::binary_search(out.removed, step.feature) && !went_with_another(step, out))
         some.push_back(step);
     if (some.empty()) return;
+    if (!may_draw(some.size(), out.solid)) {
+      unpushed_.insert(some.front().feature);
+      return;
+    }
     detail::Placed placed =
         detail::push_aside({out.solid, segmentation_, some, plan_.scale}, push.by);
     for (const detail::Placed::LeftMember& one : placed.left)
@@ -241,13 +253,21 @@ class StepRunner {
            (host.is_valid() && std::ranges::binary_search(out.removed, host));
   }
 
+  /// Counts what drawing so many features takes, with what is tried before one fits.
+  [[nodiscard]] bool may_draw(std::size_t features, const Solid& solid) const {
+    return may_go_on(validator_.work, solid,
+                     1 + static_cast<std::int64_t>(features) / kDrawnPerStep);
+  }
+
   void redraw(const detail::PlanTask& task, CarriedOut& out) {
     const Operator& its = operator_named(task.operation);
+    if (!may_draw(task.steps.size(), out.solid)) return fail(task, Code::E502, kNoWorkLeft);
     const bool tells_needs = wants_hindrance(task);
     const Redrawing asked{out.solid, segmentation_, task.steps, plan_.scale, tells_needs};
     detail::Placed placed = its.redraw(asked);
     if (!placed.solid) {
-      if (tells_needs) keep_hindrance(task, its, asked, placed);
+      if (tells_needs && may_draw(kTriesForNeeds * task.steps.size(), out.solid))
+        keep_hindrance(task, its, asked, placed);
       return fail(task, placed);
     }
     if (task.operation == "flatten" && validator_ &&

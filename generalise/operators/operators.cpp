@@ -76,7 +76,7 @@ Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan&
   }
   if (!may_go_on(validator.work, solid, 1 + std::ssize(features) / kCutsPerStep))
     return nothing_taken_off(solid, features);
-  Remainder remainder = remove_features(solid, segmentation, features, options);
+  Remainder remainder = remove_features(solid, segmentation, features, options, validator.work);
   if (validator)
     remainder = remove_cells(solid, segmentation, std::move(remainder), validator,
                              kGapOnMap_m * plan.scale, options);

@@ -10,6 +10,7 @@
 #include "kernel/segment/cuts/ring_cut.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <span>
@@ -38,13 +39,17 @@ std::vector<char> spread(std::vector<char> go, const Segmentation& segmentation)
   return go;
 }
 
+/// As many features come off in a step for each half-edge of a body.
+constexpr std::int64_t kCutsPerStep = 4;
+
 class FeatureRemover {
  public:
   FeatureRemover(const Solid& solid, const Segmentation& segmentation,
-                 const SegmentOptions& options)
+                 const SegmentOptions& options, Work* work)
       : solid_(solid),
         segmentation_(segmentation),
         options_(options),
+        work_(work),
         world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)} {
     int lumps = 0;
     for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
@@ -64,6 +69,7 @@ class FeatureRemover {
     const std::vector<char> all_wanted = wanted_;
     while (!try_all()) {
       bodies_ = untouched;
+      if (!may_try_again(asked.size())) return nothing_removed(asked);
       if (!std::exchange(is_spoilt_, false)) continue;
       is_careful_ = true;
       wanted_ = all_wanted;
@@ -78,6 +84,23 @@ class FeatureRemover {
  private:
   [[nodiscard]] const Feature& feature(FeatureId id) const {
     return segmentation_.features[id.index()];
+  }
+
+  /// Counts what it takes to take features off bodies that are whole again.
+  [[nodiscard]] bool may_try_again(std::size_t features) const {
+    if (work_ == nullptr) return true;
+    std::int64_t half_edges = 0;
+    for (const Boundary& body : bodies_) half_edges += body.half_edge_count();
+    work_->add(half_edges * (1 + static_cast<std::int64_t>(features) / kCutsPerStep));
+    return !work_->is_used_up();
+  }
+
+  [[nodiscard]] Remainder nothing_removed(const std::vector<FeatureId>& asked) const {
+    Remainder out{solid_, {}, {}};
+    for (const FeatureId id : asked)
+      out.refused.push_back({id, "the work budget is used up", Code::E502});
+    std::ranges::sort(out.refused, {}, &Refusal::feature);
+    return out;
   }
 
   /// Where others are looked for by it.
@@ -417,6 +440,7 @@ class FeatureRemover {
   const Solid& solid_;
   const Segmentation& segmentation_;
   const SegmentOptions& options_;
+  Work* work_;
   detail::World world_;
   std::vector<Boundary> bodies_;
   std::vector<detail::RingCuts> rings_;          ///< by body
@@ -446,8 +470,9 @@ std::vector<FeatureId> with_what_sits_on(const Segmentation& segmentation,
 }
 
 Remainder remove_features(const Solid& solid, const Segmentation& segmentation,
-                          const std::vector<FeatureId>& features, const SegmentOptions& options) {
-  return FeatureRemover(solid, segmentation, options).run(features);
+                          const std::vector<FeatureId>& features, const SegmentOptions& options,
+                          Work* work) {
+  return FeatureRemover(solid, segmentation, options, work).run(features);
 }
 
 }  // namespace oriel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/code.h"
+#include "kernel/base/work.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/segment.h"
@@ -41,8 +42,11 @@ std::vector<FeatureId> with_what_sits_on(const Segmentation& segmentation,
 /// would take others along that are to stay is refused, as is one whose cut is not found any more;
 /// the solid is then as if it had not been asked for. `segmentation` must be the one of `solid`,
 /// made with the same options.
+///
+/// What has to be done again for a feature that is refused late is counted in `work`, if that is
+/// given. Once it is used up nothing is taken off, and all are refused (E502).
 Remainder remove_features(const Solid& solid, const Segmentation& segmentation,
                           const std::vector<FeatureId>& features,
-                          const SegmentOptions& options = {});
+                          const SegmentOptions& options = {}, Work* work = nullptr);
 
 }  // namespace oriel

@@ -238,6 +238,30 @@ TEST_SUITE("generalise") {
     CHECK(out.issues[0].sentence.find("1:500") != std::string::npos);
   }
 
+  TEST_CASE("drawing counts as work and stops when none is left") {
+    const Line line = line_of_sample("house");
+    const RuleBase cartographic = *load_pack_file("cartographic").value;
+    Plan omitted =
+        plan(cartographic, line.table(), line.description.graph, line.interpretation, 2500);
+    const Plan drawn = omitted;
+    for (Step& step : omitted.steps) step = {step.feature, "omit", step.rule};
+    const auto fewest = [&](const Plan& asked) {
+      std::int64_t enough = 1;
+      for (bool is_enough = false; !is_enough; enough += enough / 8 + 1) {
+        Work work(enough);
+        Invariants invariants;
+        invariants.work = &work;
+        const CarriedOut done = carry_out(line.solid, line.segmentation, asked, {}, invariants);
+        CHECK(is_closed(done.solid));
+        is_enough = !work.is_used_up();
+        const auto stays = std::ranges::count(done.refused, Code::E502, &CarriedOut::Refused::code);
+        CHECK((is_enough ? stays == 0 : stays > 0));
+      }
+      return enough;
+    };
+    CHECK(fewest(drawn) > fewest(omitted));
+  }
+
   TEST_CASE("what there is no work left for stays and says so") {
     const Line line = line_of_sample("house");
     const Plan asked =

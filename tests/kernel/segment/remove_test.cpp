@@ -209,6 +209,15 @@ TEST_SUITE("kernel/segment") {
     CHECK(rest.refused[0].feature == step);
     CHECK(rest.removed.empty());
     CHECK(volume_m3(rest.solid) == Approx(volume_m3(s.solid)).epsilon(1e-12));
+    // All was done again without it: that is counted, and without work left nothing is taken off.
+    Work work(1);
+    const Remainder stopped =
+        remove_features(s.solid, s.segmentation, {step}, SegmentOptions{}, &work);
+    CHECK(work.is_used_up());
+    CHECK(stopped.removed.empty());
+    REQUIRE(stopped.refused.size() == 1);
+    CHECK(stopped.refused[0].code == Code::E502);
+    CHECK(stopped.solid.facets.size() == s.solid.facets.size());
     // Asked for by name, the niche goes all the same.
     const Remainder both = removed(s, {step, niche});
     CHECK(both.removed == std::vector{niche});
