@@ -217,9 +217,11 @@ struct GeneraliseEntry {
   };
   std::vector<Argument> arguments;
   /// What goes along with a feature that leaves its place: the number of a relation that leads to
-  /// it, or -1; and its class, kNoClass: what has no label.
+  /// it, or -1; its class, kNoClass: what has no label; and what becomes of it when the feature is
+  /// drawn again.
   int with = -1;
   ClassId with_of = kNoClass;
+  Belonging with_as = Belonging::goes;
   SourceSpan span;
 };
 

@@ -376,8 +376,12 @@ std::string PackPageWriter::along(const YamlNode& entry) {
   const YamlNode* with = value_of(entry, "with");
   if (with == nullptr) return {};
   const std::string of = scalar_at(*with, "of");
-  return fmt::format(", together with what `{}` leads to and {}", scalar_at(*with, "by"),
-                     of.empty() ? "has no label" : "is " + with_article(of));
+  const std::string as = scalar_at(*with, "as");
+  return fmt::format(", together with what `{}` leads to and {}{}", scalar_at(*with, "by"),
+                     of.empty() ? "has no label" : "is " + with_article(of),
+                     as == "moves"   ? ", which moves with it"
+                     : as == "grows" ? ", which grows with it"
+                                     : "");
 }
 
 void PackPageWriter::write_generalise() {

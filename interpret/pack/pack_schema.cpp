@@ -390,9 +390,13 @@ constexpr const char* kSchema = R"json({
           "additionalProperties": false,
           "properties": {
             "by": {"type": "string", "description": "the relation that leads to what goes along"},
-            "of": {"type": "string", "description": "its class (what has no label)"}
+            "of": {"type": "string", "description": "its class (what has no label)"},
+            "as": {
+              "enum": ["goes", "moves", "grows"],
+              "description": "what becomes of it when the feature is drawn elsewhere or larger (goes)"
+            }
           },
-          "description": "what goes away with a feature that is redrawn or removed"
+          "description": "what belongs to a feature, and goes away, moves or grows with it"
         }
       },
       "defaultSnippets": [

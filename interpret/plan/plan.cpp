@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -140,12 +141,12 @@ void add_openings(std::vector<FeatureId> openings, Plan& plan) {
       step.openings = shared;
 }
 
-/// What goes along with a feature: where the relation of its entry leads to what has no step of its
-/// own, or only one that removes it.
-std::vector<FeatureId> going_along(const rules::EvaluationContext& context,
-                                   const std::vector<ClassId>& labels,
-                                   const std::vector<const GeneraliseEntry*>& chosen, int row) {
-  const GeneraliseEntry& entry = *chosen[static_cast<std::size_t>(row)];
+/// What belongs to a feature by an entry: where its relation leads to what has no step of its own,
+/// or only one that removes it.
+std::vector<FeatureId> belonging_to(const rules::EvaluationContext& context,
+                                    const std::vector<ClassId>& labels,
+                                    const std::vector<const GeneraliseEntry*>& chosen,
+                                    const GeneraliseEntry& entry, int row) {
   std::vector<FeatureId> along;
   if (entry.with < 0) return along;
   const rules::Links& links = context.relations[static_cast<std::size_t>(entry.with)];
@@ -163,6 +164,39 @@ std::vector<FeatureId> going_along(const rules::EvaluationContext& context,
   }
   std::ranges::sort(along);
   return along;
+}
+
+/// Those that an operator may draw again: they have no step of their own.
+std::vector<FeatureId> without_step(std::vector<FeatureId> features,
+                                    const std::vector<const GeneraliseEntry*>& chosen) {
+  std::erase_if(features, [&](FeatureId id) { return chosen[id.index()] != nullptr; });
+  return features;
+}
+
+/// What becomes of what belongs to the features of the steps, and to the openings that they push.
+void add_belonging(const rules::EvaluationContext& context, const std::vector<ClassId>& labels,
+                   const std::vector<const GeneraliseEntry*>& chosen, Plan& plan) {
+  std::map<const GeneraliseEntry*, std::shared_ptr<const BelongingOf>> of_pushed;
+  for (Step& step : plan.steps) {
+    const GeneraliseEntry& entry = *chosen[step.feature.index()];
+    step.with =
+        belonging_to(context, labels, chosen, entry, static_cast<int>(step.feature.index()));
+    if (entry.with_as == Belonging::goes) continue;
+    step.belonging = entry.with_as;
+    step.follows = without_step(step.with, chosen);
+    if (!step.openings) continue;
+    auto& pushed = of_pushed[&entry];
+    if (!pushed) {
+      BelongingOf found;
+      for (const FeatureId id : *step.openings)
+        if (auto its = without_step(
+                belonging_to(context, labels, chosen, entry, static_cast<int>(id.index())), chosen);
+            !its.empty())
+          found.emplace(id, std::move(its));
+      pushed = std::make_shared<const BelongingOf>(std::move(found));
+    }
+    step.follows_pushed = pushed;
+  }
 }
 
 }  // namespace
@@ -204,12 +238,11 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   Plan result;
   result.scale = scale_denominator;
   for (std::size_t row = 0; row < chosen.size(); ++row)
-    if (chosen[row] != nullptr) {
+    if (chosen[row] != nullptr)
       result.steps.push_back(step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)},
                                      scale_denominator, interpretation));
-      result.steps.back().with = going_along(context, labels, chosen, static_cast<int>(row));
-    }
   add_openings(openings_of(pack, labels), result);
+  add_belonging(context, labels, chosen, result);
   return result;
 }
 

@@ -8,8 +8,8 @@ namespace oriel::rules {
 namespace {
 
 // clang-format off
-constexpr std::array<std::string_view, 81> kKnownKeys = {
-    "abstract", "aggregate", "ambiguous_below", "anchor", "at_least", "because", "by", "class",
+constexpr std::array<std::string_view, 82> kKnownKeys = {
+    "abstract", "aggregate", "ambiguous_below", "anchor", "as", "at_least", "because", "by", "class",
     "classes", "company", "decide", "displace", "do", "eaves-m", "emit", "enlarge", "evidence",
     "expect", "extends", "fall", "fixtures", "footprint-pct", "for", "function", "gap",
     "generalise", "given", "ground", "ground_reach", "groups", "hosts", "id", "into", "invariants",

@@ -160,6 +160,7 @@
   X(G421, 0, "Buildings that became one") \
   X(G422, 0, "A group that stays as it was") \
   X(G423, 0, "Neighbours of different heights") \
+  X(G424, 0, "Decor that could not follow its opening") \
   X(G440, 0, "A block that would cover ground to be kept free") \
   X(R200, 0, "The pack cannot be read") \
   X(R201, 0, "Not YAML") \

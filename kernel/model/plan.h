@@ -48,6 +48,14 @@ inline Limits stricter(const Limits& one, const Limits& other) {
 inline constexpr double kToOnMap_m = 0.0005;
 inline constexpr double kGapOnMap_m = 0.000125;
 
+/// What becomes of what belongs to a feature that is drawn elsewhere or larger: it goes away; it
+/// keeps its distances from the feature's edges; besides, it becomes as much longer as the edge
+/// that it lies along.
+enum class Belonging { goes, moves, grows };
+
+/// What belongs to features, both ascending.
+using BelongingOf = std::map<FeatureId, std::vector<FeatureId>>;
+
 /// One decision: what is to be done to one feature at a target scale, and because of what.
 struct Step {
   FeatureId feature;
@@ -66,6 +74,14 @@ struct Step {
   /// What goes along if the feature leaves its place, without a step of its own but `omit`.
   /// Ascending.
   std::vector<FeatureId> with{};
+  /// What becomes of what goes along when an operator draws the feature again.
+  Belonging belonging = Belonging::goes;
+  /// Those of `with` that are drawn again beside it, unless `belonging` is `goes`: they have no
+  /// step of their own. Ascending.
+  std::vector<FeatureId> follows{};
+  /// What belongs to the openings that the step may push aside, which steps of an entry share;
+  /// null: nothing follows them.
+  std::shared_ptr<const BelongingOf> follows_pushed{};
 };
 
 /// The decisions for one building at one scale, in feature order; at most one step a feature.

@@ -91,6 +91,8 @@ struct SeriesOperation {
   Box aabb_m;
   /// Features that changed or went with it.
   std::vector<std::string> with;
+  /// Those of them that were to move or grow with it and went instead, each with the reason.
+  std::map<std::string, std::string> could_not_follow{};
   Change forward, inverse;
 };
 

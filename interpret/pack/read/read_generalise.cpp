@@ -127,9 +127,20 @@ void read_target(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   loader.findings.error(Code::R253, node.span, "unknown group '" + name + "'" + advice);
 }
 
-/// `{by: decor}`, or `{by: decor, of: sill}`.
+Belonging read_belonging(const YamlNode& node, Loader& loader) {
+  static const std::vector<std::string> kWords{"goes", "moves", "grows"};  // as in Belonging
+  const auto text = read_text(node, "'as'", loader.findings);
+  if (!text) return Belonging::goes;
+  const auto found = std::ranges::find(kWords, *text);
+  if (found != kWords.end()) return static_cast<Belonging>(found - kWords.begin());
+  loader.findings.error(Code::R211, node.span,
+                        "'as' is one of " + join(kWords) + ", not '" + *text + "'");
+  return Belonging::goes;
+}
+
+/// `{by: decor}`, or `{by: decor, of: sill, as: grows}`.
 void read_with(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
-  YamlSection section(node, "'with'", {"by", "of"}, loader.findings);
+  YamlSection section(node, "'with'", {"by", "of", "as"}, loader.findings);
   if (!section.is_map()) return;
   if (const YamlNode* by = section.require("by")) {
     entry.with = read_relation(*by, "'by'", loader);
@@ -137,6 +148,7 @@ void read_with(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   }
   if (const YamlNode* of = section.find("of"))
     entry.with_of = read_class(*of, "the class after 'of'", loader);
+  if (const YamlNode* as = section.find("as")) entry.with_as = read_belonging(*as, loader);
 }
 
 void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::string>& ids,

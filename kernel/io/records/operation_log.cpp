@@ -161,6 +161,8 @@ SeriesOperation operation_of(const ordered_json& json) {
   json.at("rule").get_to(operation.rule);
   json.at("scale").get_to(operation.scale);
   if (json.contains("with")) json.at("with").get_to(operation.with);
+  if (json.contains("could_not_follow"))
+    json.at("could_not_follow").get_to(operation.could_not_follow);
   const ordered_json& box = json.at("aabb");
   if (!box.is_null()) {
     operation.aabb_m.min = {box.at(0), box.at(1), box.at(2)};
@@ -193,6 +195,7 @@ std::string operation_line(const SeriesOperation& operation) {
   out["rule"] = operation.rule;
   out["scale"] = operation.scale;
   if (!operation.with.empty()) out["with"] = operation.with;
+  if (!operation.could_not_follow.empty()) out["could_not_follow"] = operation.could_not_follow;
   const Box& box = operation.aabb_m;
   out["aabb"] = box.is_empty() ? ordered_json() : ordered_json{box.min.x, box.min.y, box.min.z,
                                                                box.max.x, box.max.y, box.max.z};

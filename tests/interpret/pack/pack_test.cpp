@@ -238,6 +238,18 @@ TEST_SUITE("interpret") {
               .starts_with("t.yaml:4:60: R211 'omit' has no arguments: write do: omit\n"));
   }
 
+  TEST_CASE("what belongs to a feature goes, moves or grows with it") {
+    const auto found = [](const std::string& as) {
+      return line_fault(
+          "generalise: [{id: a, scale: \"1:9 ..\", for: any, do: omit, "
+          "with: {by: beside, as: " +
+          as + "}}]");
+    };
+    for (const char* as : {"goes", "moves", "grows"}) CHECK(found(as).empty());
+    CHECK(found("stays").starts_with(
+        "t.yaml:4:82: R211 'as' is one of goes, moves, grows, not 'stays'\n"));
+  }
+
   TEST_CASE("codes and types of what is written are checked") {
     CHECK(line_fault("emit: {window: {type: Windo}}")
               .starts_with("t.yaml:4:23: R212 an emitted type is one of Window, Door, "

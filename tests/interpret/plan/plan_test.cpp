@@ -89,6 +89,31 @@ TEST_SUITE("interpret") {
               .empty());
   }
 
+  TEST_CASE("what has a step of its own goes along but does not follow") {
+    Scene scene;
+    scene.add({{"sense", "hole"}, {"a", 1.4}});  // a window
+    scene.add({{"sense", "protrusion"}, {"a", 0.9}});
+    scene.add({{"sense", "protrusion"}, {"a", 2.5}});
+    for (const int other : {1, 2}) scene.relate("beside", FeatureId{0}, FeatureId{other});
+    const auto step_with = [&](const std::string& with) {
+      const RuleBase base = load(
+          pack_with(kRules + "generalise:\n  - {id: w, scale: \"1:100 ..\", for: window, do: " +
+                    "{enlarge: {to: 2 m}}, with: " + with + "}\n" +
+                    "  - {id: s, scale: \"1:100 ..\", for: any, when: a < 1 m, do: omit}\n"));
+      const FeatureTable table = scene.table();
+      const FeatureGraph graph = scene.graph();
+      return plan(base, table, graph, interpret(base, table, graph), 1000).steps.at(0);
+    };
+    using Ids = std::vector<FeatureId>;
+    CHECK(step_with("{by: beside}").follows.empty());
+    CHECK(step_with("{by: beside, as: goes}").belonging == Belonging::goes);
+    const Step grows = step_with("{by: beside, as: grows}");
+    CHECK(grows.belonging == Belonging::grows);
+    CHECK(grows.with == Ids{{1}, {2}});
+    CHECK(grows.follows == Ids{{2}});
+    CHECK(step_with("{by: beside, as: moves}").belonging == Belonging::moves);
+  }
+
   TEST_CASE("a millimetre on the map grows with the scale") {
     const std::string entries =
         "  - {id: small, scale: \"1:100 ..\", for: any, when: a < 0.5 mm@map, do: omit}\n";
