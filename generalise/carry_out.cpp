@@ -74,10 +74,19 @@ class UndoneSteps {
   [[nodiscard]] bool contains(FeatureId id) const {
     return std::ranges::find(undone_, id, &CarriedOut::Refused::feature) != undone_.end();
   }
-  [[nodiscard]] std::size_t size() const { return undone_.size(); }
+  [[nodiscard]] std::size_t size() const { return undone_.size() + unfollowed_.size(); }
   [[nodiscard]] bool has_all() const { return undone_.size() == plan_.steps.size(); }
 
   void add(CarriedOut::Refused step) { undone_.push_back(std::move(step)); }
+
+  /// What follows the openings of a step, and those that it pushes, is not drawn again. False if
+  /// nothing follows them.
+  bool add_unfollowed(FeatureId id, const std::string& reason) {
+    const auto step = std::ranges::find(plan_.steps, id, &Step::feature);
+    const bool has_followers =
+        step != plan_.steps.end() && (!step->follows.empty() || (step->follows_pushed != nullptr));
+    return has_followers && unfollowed_.emplace(id, reason).second;
+  }
 
   /// The first `count` steps of the plan, without those that were taken back.
   [[nodiscard]] Plan first(std::size_t count) const {
@@ -87,6 +96,9 @@ class UndoneSteps {
       some.steps.push_back(plan_.steps[i]);
       // What has to stay does not go along either.
       std::erase_if(some.steps.back().with, [&](FeatureId id) { return contains(id); });
+      if (!unfollowed_.contains(some.steps.back().feature)) continue;
+      some.steps.back().follows.clear();
+      some.steps.back().follows_pushed.reset();
     }
     return some;
   }
@@ -95,12 +107,19 @@ class UndoneSteps {
   [[nodiscard]] CarriedOut added_to(CarriedOut out) const {
     out.refused.insert(out.refused.end(), undone_.begin(), undone_.end());
     std::ranges::stable_sort(out.refused, {}, &CarriedOut::Refused::feature);
+    for (AlongFeature& one : out.along)
+      for (const auto& [id, reason] : unfollowed_) {
+        const auto step = std::ranges::find(plan_.steps, id, &Step::feature);
+        if (std::ranges::binary_search(step->follows, one.feature) && one.reason.empty())
+          one.reason = reason;
+      }
     return out;
   }
 
  private:
   const Plan& plan_;
   std::vector<CarriedOut::Refused> undone_;
+  std::map<FeatureId, std::string> unfollowed_{};
 };
 
 /// Carries a plan out and takes steps back until nothing is violated.
@@ -157,7 +176,9 @@ class InvariantEnforcer {
       if (broken) reason = std::move(*broken);
       return broken.has_value();
     });
-    undone_.add({plan_.steps[step].feature, reason.code, std::move(reason.sentence)});
+    const FeatureId id = plan_.steps[step].feature;
+    if (undone_.add_unfollowed(id, reason.sentence)) return;
+    undone_.add({id, reason.code, std::move(reason.sentence)});
   }
 
   [[nodiscard]] bool may_be_undone(FeatureId id) const {
@@ -176,13 +197,25 @@ class InvariantEnforcer {
     const std::size_t count = undone_.size();
     for (const ShortEdge& edge : short_edges_of_drawn(solid_, out.solid, segmentation_, out.changed,
                                                       out.removed, invariants_.least_edge_m))
-      if (const FeatureId id = cause_of(edge.feature, out); may_be_undone(id))
-        undo_task(id, fmt::format("an edge of {:.2f} m would be drawn", edge.length_m));
+      if (const FeatureId id = cause_of(edge.feature, out);
+          may_be_undone(id) && !is_beside_follower(edge, out)) {
+        const std::string reason = fmt::format("an edge of {:.2f} m would be drawn", edge.length_m);
+        if (!undone_.add_unfollowed(id, reason)) undo_task(id, reason);
+      }
     return undone_.size() > count;
   }
 
-  /// What pushed it, if anything did.
+  /// It is between an opening and what follows that: it overhangs it as before.
+  static bool is_beside_follower(const ShortEdge& edge, const CarriedOut& out) {
+    return std::ranges::any_of(out.following, [&](const FollowingFeature& one) {
+      return contains(one.box, edge.from, kOnBox_m) && contains(one.box, edge.to, kOnBox_m);
+    });
+  }
+
+  /// What it follows, and what pushed that, if anything did.
   static FeatureId cause_of(FeatureId id, const CarriedOut& out) {
+    const auto follows = std::ranges::find(out.following, id, &FollowingFeature::feature);
+    if (follows != out.following.end()) id = follows->with;
     const auto pushed = std::ranges::find(out.pushed, id, &PushedFeature::feature);
     return pushed == out.pushed.end() ? id : pushed->by;
   }

@@ -25,6 +25,17 @@ struct PushedFeature {
 /// it belongs to (Step::with), what stands for it in its row, or what it is on or in.
 struct AlongFeature {
   FeatureId feature, with;
+  /// Why it could not follow what it belongs to (Step::follows), and what it would come too near
+  /// to; empty: it was not to follow.
+  std::string reason{};
+  std::vector<FeatureId> beside{};
+};
+
+/// What belongs to an opening and was drawn again with it (Step::follows).
+struct FollowingFeature {
+  FeatureId feature, with;
+  Belonging belonging = Belonging::moves;
+  Box box{};  ///< where it is now
 };
 
 /// A building after the steps of a plan.
@@ -48,6 +59,8 @@ struct CarriedOut {
   std::vector<PushedFeature> pushed{};
   /// Those of the removed that went along with others; by feature.
   std::vector<AlongFeature> along{};
+  /// Those of the changed that moved or grew with others; by feature.
+  std::vector<FollowingFeature> following{};
 };
 
 /// Features that may be pieces of something larger: a plinth, the eaves, a parapet.
@@ -61,6 +74,8 @@ struct Pieces {
 /// Carries out the steps of a plan on its solid, one operator after the other, and takes steps back
 /// where something is violated that must hold:
 ///
+/// - What follows an opening (Step::follows) goes where that violates something, or draws an edge
+///   that is too short, before the step itself is taken back.
 /// - An invariant (G405; G411 if something would hang in the air, G412 if the building would reach
 ///   out of its box): the first step that violates it, found by bisection, and so on until none is
 ///   violated.
@@ -86,8 +101,8 @@ CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const
 /// put back (G403) is left as it was, and the rest is done again without it: no feature is ever
 /// half changed. Steps for groups are carried out together or not at all, but for those of which
 /// some may stay (Operator::takes_some). Openings that are in the way of one that is enlarged are
-/// moved aside with it (pushes_of); where they have no room, it grows less. `validator` as omit()
-/// takes it.
+/// moved aside with it (pushes_of); where they have no room, it grows less. Last, what belongs to
+/// openings follows them (Step::follows), or goes where it cannot. `validator` as omit() takes it.
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                            const SegmentOptions& options, const SolidValidator& validator);
 

@@ -1,4 +1,5 @@
 #include "generalise/carry_out.h"
+#include "generalise/operators/follow.h"
 #include "generalise/operators/hindrance.h"
 #include "generalise/operators/operators.h"
 #include "generalise/operators/push.h"
@@ -42,6 +43,7 @@ class StepRunner {
         if (is_used_up(validator_.work)) return nothing_carried_out(solid_, plan_);
         continue;
       }
+      draw_followers(out);
       for (const auto& [id, refused] : failed_) out.refused.push_back(refused);
       std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
       add_along(out);
@@ -92,6 +94,9 @@ class StepRunner {
   CarriedOut attempt() {
     Plan off = everything_off();
     const std::vector<detail::Push> pushes = add_pushed(off);
+    pushed_.clear();
+    for (const detail::Push& push : pushes)
+      pushed_.insert(pushed_.end(), push.pushed.begin(), push.pushed.end());
     Remainder remainder = omit(solid_, segmentation_, off, options_, validator_);
     CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
     for (const detail::PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
@@ -166,13 +171,22 @@ class StepRunner {
     }
     std::ranges::sort(excluded);
     auto pushes = detail::pushes_of(segmentation_, pushing, plan_.scale, excluded);
-    for (const detail::Push& push : pushes)
-      for (const Step& step : push.pushed) {
-        off.steps.push_back(step);
-        off.steps.back().operation = "omit";
+    for (detail::Push& push : pushes)
+      for (Step& step : push.pushed) {
+        take_off(step.feature, off);
+        const auto& belonging = push.by.front().follows_pushed;
+        if (!belonging || !belonging->contains(step.feature)) continue;
+        step.belonging = push.by.front().belonging;
+        step.with = step.follows = belonging->at(step.feature);
+        for (const FeatureId id : step.with) take_off(id, off);
       }
     std::ranges::sort(off.steps, {}, &Step::feature);
     return pushes;
+  }
+
+  static void take_off(FeatureId id, Plan& off) {
+    if (std::ranges::find(off.steps, id, &Step::feature) == off.steps.end())
+      off.steps.push_back({id, "omit", {}});
   }
 
   /// Puts what made room back, beside what has grown. What cannot be put back so is in the way
@@ -246,11 +260,13 @@ class StepRunner {
     if (!task.steps.empty()) redraw(task, out);
   }
 
-  /// It went with what carries it.
+  /// It went with what carries it, unless that belongs to it, as a frame does.
   [[nodiscard]] bool went_with_another(const Step& step, const CarriedOut& out) const {
-    const FeatureId parent = feature(step).parent, host = feature(step).host;
-    return (parent.is_valid() && std::ranges::binary_search(out.removed, parent)) ||
-           (host.is_valid() && std::ranges::binary_search(out.removed, host));
+    const auto is_gone = [&](FeatureId id) {
+      return id.is_valid() && std::ranges::binary_search(out.removed, id) &&
+             !std::ranges::binary_search(step.with, id);
+    };
+    return is_gone(feature(step).parent) || is_gone(feature(step).host);
   }
 
   /// Counts what drawing so many features takes, with what is tried before one fits.
@@ -288,6 +304,59 @@ class StepRunner {
         out.along.push_back({step.feature, nearest_of(stay, step.feature)});
   }
 
+  /// By feature what is to be drawn again beside openings: their steps.
+  using StepsOfFollower = std::map<FeatureId, std::vector<const Step*>>;
+
+  [[nodiscard]] StepsOfFollower followers_of(const CarriedOut& out) const {
+    StepsOfFollower found;
+    const auto add = [&](const Step& step) {
+      for (const FeatureId id : step.follows)
+        if (std::ranges::binary_search(out.removed, id)) found[id].push_back(&step);
+    };
+    for (const Step& step : plan_.steps)
+      if (!failed_.contains(step.feature)) add(step);
+    for (const Step& step : pushed_)
+      if (!unpushed_.contains(step.feature)) add(step);
+    for (const Step& step : plan_.steps)
+      if (!failed_.contains(step.feature)) found.erase(step.feature);
+    return found;
+  }
+
+  /// Draws what belongs to openings again; what cannot be drawn goes along with them.
+  void draw_followers(CarriedOut& out) const {
+    const StepsOfFollower followers = followers_of(out);
+    if (followers.empty() || out.changed.empty()) return;
+    const auto drawn = detail::drawn_corners(out.solid, segmentation_, out.changed);
+    for (const auto& [id, steps] : followers) draw_follower(id, steps, drawn, out);
+    std::ranges::sort(out.changed);
+  }
+
+  void draw_follower(FeatureId id, const std::vector<const Step*>& steps,
+                     const detail::DrawnCorners& drawn, CarriedOut& out) const {
+    detail::Follower follower{id, {}, steps[0]->belonging, 0};
+    std::vector<FeatureId> own;
+    FeatureId with;
+    for (const Step* step : steps) {
+      follower.openings.push_back(step->feature);
+      own.push_back(step->feature);
+      own.insert(own.end(), step->follows.begin(), step->follows.end());
+      if (!with.is_valid() && drawn.contains(step->feature)) with = step->feature;
+      follower.is_of_strip |= step->operation == "aggregate" && !becomes_block(*step);
+    }
+    if (!with.is_valid() || went_with_another({id, {}, {}}, out)) return;
+    follower.gap_m = Redrawing{out.solid, segmentation_, {*steps[0]}, plan_.scale}.gap_m();
+    detail::Followed found = detail::follow(out.solid, segmentation_, follower, drawn, own,
+                                            validator_.hindrances != nullptr);
+    if (!found.placed.solid) {
+      out.along.push_back({id, with, std::move(found.placed.reason), std::move(found.beside)});
+      return;
+    }
+    out.solid = std::move(*found.placed.solid);
+    std::erase(out.removed, id);
+    out.changed.push_back(id);
+    out.following.push_back({id, with, follower.belonging, found.box});
+  }
+
   static bool leaves_for_good(const Step& step) {
     return step.operation == "omit" || step.operation == "flatten";
   }
@@ -299,21 +368,28 @@ class StepRunner {
       return id.is_valid() && (std::ranges::binary_search(out.removed, id) ||
                                std::ranges::binary_search(out.changed, id));
     };
-    std::map<FeatureId, FeatureId> with;
-    for (const AlongFeature& one : out.along) with.emplace(one.feature, one.with);
+    std::map<FeatureId, AlongFeature> with;
+    const auto add = [&](FeatureId id, FeatureId other) {
+      with.try_emplace(id, AlongFeature{id, other});
+    };
+    for (const AlongFeature& one : out.along) with.try_emplace(one.feature, one);
+    const auto add_all = [&](const Step& step) {
+      if (has_left(step.feature))
+        for (const FeatureId id : step.with) add(id, step.feature);
+    };
     for (const Step& step : plan_.steps)
-      if (!failed_.contains(step.feature) && has_left(step.feature))
-        for (const FeatureId id : step.with) with.emplace(id, step.feature);
+      if (!failed_.contains(step.feature)) add_all(step);
+    for (const Step& step : pushed_) add_all(step);
     for (const FeatureId id : out.removed) {
       const Feature& its = segmentation_.features[id.index()];
-      if (has_left(its.parent)) with.emplace(id, its.parent);
-      if (has_left(its.host)) with.emplace(id, its.host);
+      if (has_left(its.parent)) add(id, its.parent);
+      if (has_left(its.host)) add(id, its.host);
     }
     for (const Step& step : plan_.steps)
       if (!failed_.contains(step.feature) && leaves_for_good(step)) with.erase(step.feature);
     out.along.clear();
-    for (const auto& [id, other] : with)
-      if (std::ranges::binary_search(out.removed, id)) out.along.push_back({id, other});
+    for (auto& [id, one] : with)
+      if (std::ranges::binary_search(out.removed, id)) out.along.push_back(std::move(one));
   }
 
   [[nodiscard]] detail::PlanTask without_failed(detail::PlanTask task) const {
@@ -329,6 +405,7 @@ class StepRunner {
   std::vector<detail::PlanTask> tasks_;
   std::map<FeatureId, CarriedOut::Refused> failed_;
   std::set<FeatureId> unpushed_;  ///< they stay where they are
+  std::vector<Step> pushed_{};    ///< what makes room, in the last attempt
 };
 
 }  // namespace

@@ -40,6 +40,15 @@ Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segm
   return issue;
 }
 
+Issue unfollowed_issue(const AlongFeature& one, const FeatureTable& table,
+                       const std::string& target) {
+  Issue note = building_issue(Severity::note, Code::G424, table.building(),
+                              fmt::format("goes along with {} at {}, as it cannot follow: {}",
+                                          table.id(one.with), target, one.reason));
+  note.place.feature = table.id(one.feature);
+  return note;
+}
+
 bool is_unnamed(FeatureId id, const Interpretation& interpretation) {
   return interpretation.verdicts[id.index()].label.empty();
 }
@@ -61,10 +70,17 @@ Pieces pieces_of(const Plan& plan, const FeatureTable& table,
   return pieces;
 }
 
-/// What has no step of its own has that of what it made room for, or went along with.
-void tell_cause(FeatureId cause, const std::string& what, const Plan& plan,
+/// What pushed a feature, or the feature.
+FeatureId cause_of_push(FeatureId id, const Generalised& generalised) {
+  const auto pushed = std::ranges::find(generalised.pushed, id, &PushedFeature::feature);
+  return pushed == generalised.pushed.end() ? id : pushed->by;
+}
+
+/// What has no step of its own has that of what it made room for, followed, or went along with;
+/// `cause` has the step.
+void tell_cause(FeatureId cause, FeatureId with, const std::string& what, const Plan& plan,
                 const FeatureTable& table, FeatureOutcome& outcome) {
-  outcome.reason = what + table.id(cause);
+  outcome.reason = what + table.id(with);
   const auto step = std::ranges::find(plan.steps, cause, &Step::feature);
   if (step == plan.steps.end() || !outcome.operation.empty()) return;
   outcome.operation = step->operation;
@@ -76,8 +92,13 @@ void tell_gone(FeatureId id, const Plan& plan, const Generalised& generalised,
   const bool is_omitted = outcome.operation == "omit" || outcome.operation == "flatten";
   outcome.outcome = is_omitted ? "omitted" : "went along";
   const auto along = std::ranges::find(generalised.along, id, &AlongFeature::feature);
-  if (!is_omitted && along != generalised.along.end())
-    tell_cause(along->with, "went along with ", plan, table, outcome);
+  if (is_omitted || along == generalised.along.end()) return;
+  tell_cause(cause_of_push(along->with, generalised), along->with, "went along with ", plan, table,
+             outcome);
+  if (along->reason.empty()) return;
+  outcome.code = Code::G424;
+  outcome.reason += ": " + along->reason;
+  for (const FeatureId other : along->beside) outcome.beside.push_back(table.id(other));
 }
 
 void tell_changed(FeatureId id, const Plan& plan, const Generalised& generalised,
@@ -85,7 +106,12 @@ void tell_changed(FeatureId id, const Plan& plan, const Generalised& generalised
   outcome.outcome = "changed";
   const auto pushed = std::ranges::find(generalised.pushed, id, &PushedFeature::feature);
   if (pushed != generalised.pushed.end())
-    tell_cause(pushed->by, "pushed by ", plan, table, outcome);
+    tell_cause(pushed->by, pushed->by, "pushed by ", plan, table, outcome);
+  const auto follows = std::ranges::find(generalised.following, id, &FollowingFeature::feature);
+  if (follows != generalised.following.end())
+    tell_cause(cause_of_push(follows->with, generalised), follows->with,
+               follows->belonging == Belonging::grows ? "grew with " : "moved with ", plan, table,
+               outcome);
 }
 
 /// As many features in the way are named in a sentence.
@@ -123,6 +149,8 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
     if (refusal.code != Code::E502 && refusal.code != Code::none)
       out.issues.push_back(
           refusal_issue(refusal, segmentation, table, interpretation, plan, target));
+  for (const AlongFeature& one : done.along)
+    if (!one.reason.empty()) out.issues.push_back(unfollowed_issue(one, table, target));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
     out.issues.push_back(building_issue(
         Severity::error, Code::G402, table.building(),
@@ -130,9 +158,9 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
     return out;
   }
   out.value = Generalised{
-      std::move(done.solid),   std::move(done.removed),   std::move(done.refused), false,
-      std::move(done.changed), std::move(done.uncleared), closing_faces(solid),    {},
-      std::move(done.pushed),  std::move(done.along)};
+      std::move(done.solid),   std::move(done.removed),   std::move(done.refused),  false,
+      std::move(done.changed), std::move(done.uncleared), closing_faces(solid),     {},
+      std::move(done.pushed),  std::move(done.along),     std::move(done.following)};
   return out;
 }
 

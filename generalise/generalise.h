@@ -47,6 +47,8 @@ struct Generalised {
   std::vector<PushedFeature> pushed{};
   /// Those of the removed that went along with others; by feature.
   std::vector<AlongFeature> along{};
+  /// Those of the changed that moved or grew with others; by feature.
+  std::vector<FollowingFeature> following{};
 };
 
 /// What was to go for its size only turns out to be a part of the building: without it something
@@ -110,10 +112,13 @@ struct FeatureOutcome {
   /// "went along": with what it belongs to, its row, or what carries it; "refused": it is as it
   /// was.
   std::string outcome;
-  Code code = Code::none;  ///< of a refusal, and of a part
-  /// Of a refusal and a part; "pushed by ID", "went along with ID".
+  /// Of a refusal, and of a part; G424 of what could not follow what it belongs to.
+  Code code = Code::none;
+  /// Of a refusal and a part; "pushed by ID", "moved with ID", "grew with ID", "went along with
+  /// ID", and why it did not follow.
   std::string reason;
-  /// Of a refusal: what would let the operator act, and the ids of what is in its way.
+  /// Of a refusal, and of what could not follow: what would let the operator act, and the ids of
+  /// what is in its way.
   std::vector<Need> needs{};
   std::vector<std::string> beside{};
 };

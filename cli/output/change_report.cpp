@@ -135,7 +135,9 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
                                    one.label.empty() ? "unknown" : one.label,
                                    is_reason ? one.reason : one.outcome);
     if (!one.operation.empty()) text += fmt::format(", {} by {}", one.operation, one.rule);
-    if (one.code != Code::none)
+    if (one.code != Code::none && is_reason)
+      text += fmt::format(" ({})", to_string(one.code));
+    else if (one.code != Code::none)
       text += fmt::format(" ({} {})", to_string(one.code), one.reason);
     else if (!one.reason.empty() && !is_reason)
       text += fmt::format(" ({})", one.reason);

@@ -54,6 +54,22 @@ Remainder nothing_taken_off(const Solid& solid, const std::vector<FeatureId>& fe
 
 }  // namespace
 
+std::optional<detail::Host> Redrawing::host(std::size_t member) const {
+  const Feature& f = feature(member);
+  if (f.planes.empty()) return std::nullopt;
+  const Plane& its = segmentation.planes[f.planes[0].index()];
+  for (const FeatureId id : {f.host, f.parent}) {
+    if (!std::ranges::binary_search(steps[member].with, id)) continue;
+    for (const PlaneId split : segmentation.features[id.index()].planes) {
+      const Plane& wall = segmentation.planes[split.index()];
+      if (dot(wall.normal, its.normal) < 1 - detail::kOnEdge_m) continue;
+      const double before_m = dot(wall.normal, f.cap_point) - wall.offset_m;
+      return detail::host_at(solid, wall, f.cap_point - before_m * wall.normal);
+    }
+  }
+  return detail::host_at(solid, its, f.cap_point);
+}
+
 const Operator& operator_named(std::string_view name) {
   const auto* found = std::ranges::find(kOperators, name, &Operator::name);
   if (found == kOperators.end())

@@ -48,12 +48,9 @@ struct Redrawing {
   [[nodiscard]] double gap_m() const { return number("gap", kGapOnMap_m * scale); }
   /// The least size, unless the pack says `to`.
   [[nodiscard]] double to_m() const { return number("to", kToOnMap_m * scale); }
-  /// The host of a member on the solid as it is.
-  [[nodiscard]] std::optional<detail::Host> host(std::size_t member = 0) const {
-    const Feature& f = feature(member);
-    if (f.planes.empty()) return std::nullopt;
-    return detail::host_at(solid, segmentation.planes[f.planes[0].index()], f.cap_point);
-  }
+  /// The host of a member on the solid as it is; what stood on something that belongs to it, such
+  /// as its frame, is on what that stood on.
+  [[nodiscard]] std::optional<detail::Host> host(std::size_t member = 0) const;
 };
 
 /// The operator `omit`: features leave the building (paper 5.1, "omission").

@@ -133,6 +133,7 @@ class LevelOperations {
       for (const PushedFeature& pushed : after_.generalised.pushed)
         if (std::ranges::find(task.steps, pushed.by, &Step::feature) != task.steps.end())
           members.push_back(pushed.feature);
+      add_following(members);
       made.with.assign(members.begin() + 1, members.end());
       add(std::move(made), members);
     }
@@ -156,6 +157,14 @@ class LevelOperations {
             std::ranges::binary_search(after_.generalised.removed, id) &&
             std::ranges::find(members, id) == members.end())
           members.push_back(id);
+  }
+
+  /// Adds what was drawn again with the members.
+  void add_following(std::vector<FeatureId>& members) const {
+    for (const FollowingFeature& one : after_.generalised.following)
+      if (std::ranges::find(members, one.with) != members.end() &&
+          std::ranges::find(members, one.feature) == members.end())
+        members.push_back(one.feature);
   }
 
   /// Features may come before what carries them; those have got an operation of their own.
@@ -337,6 +346,9 @@ class LevelOperations {
       operation.scale = scale;
       operation.aabb_m = box_of(one.change);
       for (const FeatureId id : one.with) operation.with.push_back(input_.table.id(id));
+      for (const AlongFeature& along : after_.generalised.along)
+        if (!along.reason.empty() && one.gone.contains(along.feature))
+          operation.could_not_follow.emplace(input_.table.id(along.feature), along.reason);
       operation.inverse = inverse_of(one.change, state);
       operation.forward = std::move(one.change);
       if (!apply(state, operation.forward)) throw GeometryError("an operation does not fit");

@@ -27,6 +27,12 @@ void add_along(Step& step, const Step& before) {
   step.with = std::move(along);
 }
 
+/// What is gone does not follow anything any more.
+void keep_gone(const std::vector<FeatureId>& removed, Step& step) {
+  std::erase_if(step.follows,
+                [&](FeatureId id) { return std::ranges::binary_search(removed, id); });
+}
+
 /// Arguments that depend on the map are those of its scale from now on.
 Step fixed(Step step, double scale) {
   if (step.operation == "omit") return step;
@@ -129,6 +135,7 @@ class Levels {
       return same;
     }
     while (true) {
+      for (auto& [feature, step] : steps) keep_gone(before.generalised.removed, step);
       std::vector<Issue> found;
       auto level = level_of(input_, scale, listed(steps), invariants_after(before, scale), found);
       if (level && input_.has_no_work_left()) return cut_short(before, std::move(*level));

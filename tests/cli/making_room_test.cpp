@@ -95,6 +95,32 @@ TEST_SUITE("cli") {
     CHECK(told["its wall has no room for the row"] == 6);
   }
 
+  TEST_CASE("decor that grows with a door is explained, and its series proves itself") {
+    const Folder folder;
+    const std::string house = folder.write("house.city.json", crowded_house());
+    std::string text = kRoomPack;
+    const std::string goes = "of: ledge}";
+    text.replace(text.find(goes), goes.size(), "of: ledge, as: grows}");
+    const std::string pack = folder.write("room.yaml", text);
+    REQUIRE(run({"generalise", house, "--series", "1:500,1:1000,1:5000", "--rules", pack, "-o",
+                 folder / "house"})
+                .exit == 0);
+    REQUIRE(run({"generalise", house, "--scale", "1:1000", "--rules", pack, "-o",
+                 folder / "out.city.json", "--explain", folder / "why.jsonl"})
+                .exit == 0);
+    const json first = json::parse(lines_of(bytes_of(folder / "house.oplog.jsonl")).at(0));
+    const std::string door = first["oriel_id"];
+    CHECK(first["with"].size() == 3);
+    CHECK_FALSE(first.contains("could_not_follow"));
+    int grown = 0;
+    for (const std::string& line : lines_of(bytes_of(folder / "why.jsonl")))
+      if (json::parse(line)["reason"] == "grew with " + door) ++grown;
+    CHECK(grown == 1);
+    const Outcome check = run({"generalise", "--check", "--from", folder / "house"});
+    CAPTURE(check.err);
+    CHECK(check.exit == 0);
+  }
+
   TEST_CASE("a series with openings that are pushed and decor that goes along proves itself") {
     const Folder folder;
     const std::string house = folder.write("house.city.json", crowded_house());
