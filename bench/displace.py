@@ -33,6 +33,7 @@ generalise:
 ON_WALL_M = 0.005  # corners this near to a wall's plane are in it
 SAME_M = 0.002  # rounding of the file's grid
 OPENINGS = ("Window", "Door")
+LEVEL = 0.9  # what looks further up or down is the floor or the head of a recess
 NO_ROOM = "its wall has no room for the row"
 
 
@@ -82,7 +83,9 @@ def facades_of(path):
     walls, points, wall_of = collections.defaultdict(list), collections.defaultdict(list), {}
     for building, surface, parent, key, rings in facets_of(city):
         if surface["type"] in OPENINGS and "oriel_id" in surface:
-            points[building, surface["oriel_id"]] += rings[0]
+            n = normal_of(rings[0])
+            if n and abs(n[2]) < LEVEL:  # the floor of a door may run on into the landing before it
+                points[building, surface["oriel_id"]] += rings[0]
             wall_of[building, surface["oriel_id"]] = parent
         elif surface["type"] == "WallSurface":
             n = normal_of(rings[0])
