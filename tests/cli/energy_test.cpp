@@ -55,7 +55,7 @@ TEST_SUITE("cli") {
   TEST_CASE("a building without a closed solid has a row with its id and is warned about") {
     const Folder folder;
     auto city = cubes({"a", "assumed", "open"});
-    const auto shell_of = [&](const char* id) -> json& {
+    const auto shell_of = [&](const char* id) -> auto& {
       return city["CityObjects"][id]["geometry"][0]["boundaries"][0];
     };
     shell_of("assumed").erase(1);
