@@ -55,11 +55,13 @@ struct WriteOptions {
 ///   rounding makes one are one.
 ///   A line of a CityJSONSeq keeps its header's transform.
 /// - With LabelledBuilding::lod that geometry gets this level of detail, and another geometry of
-/// the
-///   object with it goes. Of several labelled buildings with one id the first takes the place of
-///   the chosen geometry, the others are appended.
+///   the object with it goes. Of several labelled buildings with one id the first takes the place
+///   of the chosen geometry, the others are appended.
 /// - Installations become BuildingInstallation objects, children of their building; one with the
-///   same id is replaced. Attributes of the building are added; one with the same name is replaced.
+///   same id is replaced. With LabelledBuilding::geometry and without keeps_semantics, those of the
+///   file that only share the polygons of the replaced geometry (`oriel_geometry`) leave, if they
+///   are not written again. Attributes of the building are added; one with the same name is
+///   replaced.
 /// - CityGML becomes the lines of a CityJSONSeq (see CityJsonCollector for one file): its header,
 ///   then a line for each Building; nothing for a Building that could not be read.
 /// - A document that was read from OBJ, OFF or PLY becomes a CityJSON 2.0 file: lod "3" where the

@@ -67,6 +67,26 @@ TEST_SUITE("cli") {
     CHECK_FALSE(outcome.says("open"));
   }
 
+  TEST_CASE("installations that share the polygons of a solid leave with it when it is redrawn") {
+    const Folder folder;
+    for (const char* name : {"house", "row", "l-house"}) {
+      CAPTURE(name);
+      const std::string file = replaced(sample(name), "stripped", "labelled");
+      const std::string level = folder / "level.city.json", to = folder / name;
+      REQUIRE(run({"generalise", file, "--scale", "1:2500", "-o", level}).exit == 0);
+      const auto before = ordered_json::parse(bytes_of(file))["CityObjects"];
+      const auto after = ordered_json::parse(bytes_of(level))["CityObjects"];
+      CHECK(before.size() > after.size());
+      for (const auto& [id, object] : after.items())
+        CHECK((object["type"] == "Building" || object["attributes"].contains("oriel_id")));
+      REQUIRE(run({"generalise", file, "--series", "1:1000,1:2500", "-o", to}).exit == 0);
+      CHECK(run({"generalise", "--check", "--from", to}).exit == 0);
+      // Repaired, they are what they were.
+      REQUIRE(run({"repair", file, "-o", level}).exit == 0);
+      CHECK(ordered_json::parse(bytes_of(level))["CityObjects"].size() == before.size());
+    }
+  }
+
   TEST_CASE("the geometry of an installation is no concern of repair and validate") {
     const ordered_json city = cube_with_shaft(5000);
     const Outcome judged = run({"validate", "-", "--from", "cityjson", "-v"}, {.in = city.dump()});

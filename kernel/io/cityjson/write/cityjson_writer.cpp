@@ -119,6 +119,7 @@ class CityJsonWriter {
     for (const LabelledBuilding& building : labelled) relabel(building);
     std::unordered_set<std::string> leaving = without_relatives();
     leaving.insert(removed.begin(), removed.end());
+    leaving.insert(outdated_.begin(), outdated_.end());
     if (!leaving.empty()) remove(leaving);
     if (!gone_.empty() && source_.is_feature && has_nothing()) return {};
     if (pool_) exchange_vertices();
@@ -187,6 +188,7 @@ class CityJsonWriter {
     geometries.set(number, std::move(geometry));
     object.set("geometry", std::move(geometries));
     if (labelled.geometry) object.erase("geographicalExtent");
+    if (labelled.geometry && !labelled.keeps_semantics) find_outdated(object, labelled);
     drop_members(object, "attributes", labelled.dropped_attributes);
     set_members(object, "attributes", labelled.attributes);
     add_ids(object, "children", labelled.installations);
@@ -412,10 +414,42 @@ class CityJsonWriter {
     return text;
   }
 
-  /// Replaces the CityObject `id`, or appends it.
-  void put_object(const std::string& id, std::string text) {
+  /// Installations that only repeat polygons of the solid that the building had, and are not
+  /// written again with the new one, leave.
+  void find_outdated(const RawNode& object, const LabelledBuilding& labelled) {
+    for (const std::string& child : ids_in(object, "children")) {
+      if (std::ranges::find(labelled.installations, child, &Installation::id) !=
+          labelled.installations.end())
+        continue;
+      number_objects();
+      const auto found = object_of_.find(child);
+      if (found == object_of_.end() || !RawNode::is_object(objects_.value(found->second))) continue;
+      const RawNode installation(objects_.value(found->second), arrays_);
+      const std::string_view attributes = installation.value_of("attributes");
+      if (RawNode::is_object(attributes) &&
+          RawNode(attributes).value_of("oriel_geometry") == R"("shared")" &&
+          is_at_lod(installation, document_.buildings[building_index(labelled.building)].lod))
+        outdated_.insert(child);
+    }
+  }
+
+  /// All its geometries are.
+  [[nodiscard]] bool is_at_lod(const RawNode& object, std::string_view lod) const {
+    const RawNode geometries(object.value_of("geometry"), arrays_);
+    for (std::size_t i = 0; i < geometries.size(); ++i)
+      if (detail::lod_name(RawNode(geometries.value(i), arrays_).value_of("lod")) != lod)
+        return false;
+    return true;
+  }
+
+  void number_objects() {
     if (object_of_.empty())
       for (std::size_t i = 0; i < objects_.size(); ++i) object_of_.try_emplace(objects_.key(i), i);
+  }
+
+  /// Replaces the CityObject `id`, or appends it.
+  void put_object(const std::string& id, std::string text) {
+    number_objects();
     const auto [found, is_new] = object_of_.try_emplace(id, objects_.size());
     if (is_new)
       objects_.append(id, std::move(text));
@@ -505,6 +539,8 @@ class CityJsonWriter {
   std::unordered_set<std::string> gone_;
   const std::vector<std::string>& bared_;
   std::unordered_set<std::string> emptied_;
+  /// Installations of solids that were replaced.
+  std::unordered_set<std::string> outdated_;
   int least_digits_ = 0;
   const detail::CityJsonSource& source_;
   const Document& document_;
