@@ -272,7 +272,7 @@ def one_hash(oriel, source, profile, scale, folder, name):
         open(parts[-1], "w").write(head + "".join(lines[i::3]))
 
     def made(path, *more):
-        out = path.replace(".city.jsonl", ".out.city.jsonl")
+        out = os.path.join(folder, "made." + os.path.basename(path))
         run(oriel, "generalise", path, "--scale", f"1:{scale}", "--profile", profile, "-o", out, *more)
         return out
     hashes.add(lines_hash([made(source, "--neighbours")]))
