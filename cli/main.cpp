@@ -6,7 +6,7 @@
 #include "cli/terminal/usage_advice.h"
 #include "cli/version/version_text.h"
 #include "kernel/base/issue.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/io/files/output_file.h"
 
 #include <cerrno>

@@ -1,7 +1,7 @@
 #include "generalise/to_lod.h"
 
 #include "generalise/generalise.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/blocks/blocks.h"
 
 #include <string>

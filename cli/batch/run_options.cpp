@@ -1,7 +1,7 @@
 #include "cli/batch/run_options.h"
 
 #include "interpret/language/suggest.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "oriel/interpret.h"
 
 #include <memory>

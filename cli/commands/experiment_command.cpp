@@ -8,9 +8,9 @@
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/step_progress.h"
 #include "cli/version/version_text.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
 #include "kernel/base/sha256.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/experiments/experiment.h"
 

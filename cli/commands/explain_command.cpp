@@ -7,8 +7,8 @@
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 #include "oriel/explain.h"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/issue.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/files/partial_files.h"
 

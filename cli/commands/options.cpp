@@ -4,7 +4,7 @@
 #include "cli/output/column_choice.h"
 #include "cli/output/label_outputs.h"
 #include "cli/terminal/option_values.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/corrections.h"
 #include "oriel/score.h"

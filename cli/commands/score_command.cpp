@@ -8,7 +8,7 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/corrections.h"

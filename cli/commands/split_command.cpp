@@ -5,7 +5,7 @@
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/option_values.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/cityjson/stream_header.h"
 #include "kernel/io/files/output_file.h"
 

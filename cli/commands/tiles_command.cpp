@@ -6,7 +6,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/tiles_output.h"
 #include "cli/terminal/option_values.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "oriel/rules.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #include "cli/output/change_report.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/option_values.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/records/feature_records.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <cstdio>

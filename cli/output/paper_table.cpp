@@ -1,8 +1,8 @@
 #include "cli/output/paper_table.h"
 
 #include "cli/terminal/table.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 

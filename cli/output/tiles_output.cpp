@@ -3,8 +3,8 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/options.h"
 #include "cli/tiles/tiles_page.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/files/partial_files.h"
 

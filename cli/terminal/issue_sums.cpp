@@ -1,6 +1,6 @@
 #include "cli/terminal/issue_sums.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include "cli/terminal/last_words.h"
 #include "cli/terminal/option_values.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <chrono>
 #include <cstdlib>

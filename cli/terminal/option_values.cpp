@@ -1,7 +1,7 @@
 #include "cli/terminal/option_values.h"
 
 #include "interpret/language/suggest.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <utility>

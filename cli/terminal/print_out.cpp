@@ -1,6 +1,6 @@
 #include "cli/terminal/print_out.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <cerrno>
 #include <cstdio>

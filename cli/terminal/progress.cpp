@@ -1,7 +1,7 @@
 #include "cli/terminal/progress.h"
 
 #include "cli/terminal/logging.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #include "cli/terminal/step_progress.h"
 
 #include "cli/terminal/logging.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <cstdio>
 

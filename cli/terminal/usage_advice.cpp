@@ -1,7 +1,7 @@
 #include "cli/terminal/usage_advice.h"
 
 #include "interpret/language/suggest.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "generalise/city/city_groups.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/blocks/gabled_block.h"
 #include "kernel/blocks/simplify_outlines.h"
 #include "kernel/blocks/upright_block.h"

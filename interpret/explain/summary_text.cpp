@@ -1,5 +1,5 @@
 #include "interpret/explain/explain.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "interpret/labelling/corrections.h"
 
 #include "interpret/language/suggest.h"
-#include "kernel/base/printable.h"
 #include "kernel/base/sha256.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/geometry/boxes.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "interpret/labelling/groups.h"
 #include "interpret/labelling/labelling.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,6 @@
 #include "interpret/language/source.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "interpret/language/suggest.h"
 
-#include "kernel/base/edit_distance.h"
+#include "kernel/base/text/edit_distance.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include "interpret/language/parser.h"
 #include "interpret/pack/names.h"
 #include "interpret/plan/operators.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <map>

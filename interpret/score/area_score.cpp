@@ -2,7 +2,7 @@
 
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/yaml/json_text.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/geometry/boxes.h"
 
 #include <algorithm>

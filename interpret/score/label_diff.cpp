@@ -1,8 +1,8 @@
 #include "interpret/score/label_diff.h"
 
 #include "interpret/yaml/json_text.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <tuple>

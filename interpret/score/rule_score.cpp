@@ -2,7 +2,7 @@
 
 #include "interpret/pack/pack.h"
 #include "interpret/yaml/json_text.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <cmath>

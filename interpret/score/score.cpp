@@ -2,8 +2,8 @@
 
 #include "interpret/score/match.h"
 #include "interpret/yaml/json_text.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -78,7 +78,7 @@ struct Miss {
   double iou = 0;
 };
 
-/// The miss with its words as people may see them (kernel/base/printable.h).
+/// The miss with its words as people may see them (kernel/base/text/printable.h).
 Miss printable(const Miss& miss);
 
 struct Score {

@@ -1,7 +1,7 @@
 #include "interpret/score/score_spread.h"
 
 #include "interpret/yaml/json_text.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "interpret/compile/emitted.h"
 #include "interpret/pack/pack.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <fmt/format.h>
 

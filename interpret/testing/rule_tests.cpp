@@ -6,7 +6,7 @@
 #include "interpret/testing/fixture.h"
 #include "interpret/testing/test_file.h"
 #include "interpret/yaml/section.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "interpret/testing/rule_tests.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include "interpret/yaml/yaml_brackets.h"
 #include "interpret/yaml/yaml_scan.h"
 #include "interpret/yaml/yaml_tree.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "kernel/attach/drop_facet.h"
 
 #include "kernel/attach/clearance.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/geometry/exact.h"
 
 #include <algorithm>

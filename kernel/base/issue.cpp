@@ -1,6 +1,6 @@
 #include "kernel/base/issue.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 

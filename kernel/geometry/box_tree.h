@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/base/numbers.h"
+#include "kernel/base/text/numbers.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/model/vec3.h"
 

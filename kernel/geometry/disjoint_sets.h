@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/index.h"
-#include "kernel/base/numbers.h"
+#include "kernel/base/text/numbers.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "kernel/solidify/solidify.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/solidify/crossings/uncross.h"
 #include "kernel/solidify/mend/mend.h"

@@ -1,7 +1,7 @@
 #include "oriel/explain.h"
 
 #include "interpret/surfaces/surfaces.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/vec3.h"

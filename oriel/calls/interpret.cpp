@@ -1,7 +1,7 @@
 #include "oriel/interpret.h"
 
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "interpret/surfaces/label_classes.h"
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/index.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/describe/surfaces.h"
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"

@@ -1,7 +1,7 @@
 #include "oriel/experiments/feature_store.h"
 
-#include "kernel/base/counted.h"
 #include "kernel/base/sha256.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/reader.h"

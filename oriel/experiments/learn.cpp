@@ -1,6 +1,6 @@
 #include "oriel/experiments/learn.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/files/input.h"
 #include "oriel/corrections.h"
 #include "oriel/experiments/stored_samples.h"

@@ -4,8 +4,8 @@
 #include "interpret/experiment/learn/search/param_fit.h"
 #include "interpret/experiment/measure.h"
 #include "interpret/experiment/result_rows.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/random.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <iterator>

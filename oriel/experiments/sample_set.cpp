@@ -1,7 +1,7 @@
 #include "oriel/experiments/sample_set.h"
 
 #include "interpret/language/suggest.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/experiments/file_patterns.h"

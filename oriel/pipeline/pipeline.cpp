@@ -1,7 +1,7 @@
 #include "oriel/pipeline/pipeline.h"
 
 #include "interpret/labelling/interpret.h"
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/rings/ring_features.h"
 #include "kernel/solidify/noise.h"

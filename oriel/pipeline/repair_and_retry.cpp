@@ -1,6 +1,6 @@
 #include "oriel/pipeline/repair_and_retry.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"

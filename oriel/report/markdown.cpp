@@ -1,4 +1,4 @@
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "oriel/report/forms.h"
 #include "oriel/report/tables.h"
 

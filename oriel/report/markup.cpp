@@ -1,6 +1,6 @@
 #include "oriel/report/markup.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 namespace oriel::report {
 

@@ -1,6 +1,6 @@
 #include "oriel/report/tables.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/json/json_text.h"
 #include "oriel/report/cells.h"
 

@@ -2,8 +2,8 @@
 
 #include "cli/batch/run_options.h"
 #include "cli/terminal/logging.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/issue.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/files/format.h"
 #include "kernel/io/files/partial_files.h"
 

@@ -6,8 +6,8 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
-#include "kernel/base/counted.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/rules.h"
 

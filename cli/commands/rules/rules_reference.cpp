@@ -4,7 +4,7 @@
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
 #include "interpret/language/suggest.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "oriel/rules.h"
 
 #include <memory>

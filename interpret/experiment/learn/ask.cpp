@@ -1,7 +1,7 @@
 #include "interpret/experiment/learn/ask.h"
 
 #include "interpret/labelling/interpret.h"
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <tuple>

@@ -5,9 +5,9 @@
 #include "interpret/language/quantity.h"
 #include "interpret/language/suggest.h"
 #include "interpret/pack/names.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/base/random.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #include "kernel/io/citygml/gml_geometry.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/json/rings.h"
 #include "kernel/io/json/words.h"
 

@@ -1,7 +1,7 @@
 #include "kernel/io/cityjson/cityjson_geometry.h"
 
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/json/rings.h"
 
 #include <cmath>

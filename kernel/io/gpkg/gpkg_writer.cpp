@@ -1,6 +1,6 @@
 #include "kernel/io/gpkg/gpkg_writer.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/io/gpkg/gpkg_geometry.h"
 #include "kernel/io/gpkg/gpkg_schema.h"
 

@@ -1,6 +1,6 @@
 #include "kernel/io/json/rings.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/mesh/mesh_reader.h"
 

@@ -1,6 +1,6 @@
 #include "kernel/io/mesh/ply_values.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/json/words.h"
 
 #include <bit>

@@ -1,4 +1,4 @@
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/json/json_text.h"
 #include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/record_text.h"

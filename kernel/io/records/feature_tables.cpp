@@ -1,6 +1,6 @@
 #include "kernel/io/records/feature_tables.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/records/record_text.h"
 

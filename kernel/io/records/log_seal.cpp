@@ -1,7 +1,7 @@
 #include "kernel/io/records/log_seal.h"
 
-#include "kernel/base/counted.h"
 #include "kernel/base/sha256.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/text.h"
 

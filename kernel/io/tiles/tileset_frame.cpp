@@ -1,6 +1,6 @@
 #include "kernel/io/tiles/tileset_frame.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/io/tiles/tileset_writer.h"
 
 #include <algorithm>

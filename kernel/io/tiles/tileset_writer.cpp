@@ -1,6 +1,6 @@
 #include "kernel/io/tiles/tileset_writer.h"
 
-#include "kernel/base/printable.h"
+#include "kernel/base/text/printable.h"
 #include "kernel/io/files/gzip.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/tiles/tile_tree.h"

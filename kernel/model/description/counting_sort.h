@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/base/numbers.h"
+#include "kernel/base/text/numbers.h"
 
 #include <cstddef>
 #include <span>

@@ -1,7 +1,7 @@
 #include "kernel/model/description/feature_names.h"
 
-#include "kernel/base/edit_distance.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/edit_distance.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "kernel/solidify/shells/shell_mesh.h"
 
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/solidify/planes/number_table.h"
 #include "kernel/solidify/shells/edge_groups.h"
 

@@ -1,8 +1,8 @@
 #include "kernel/solidify/shells/shells.h"
 
 #include "kernel/base/assert.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"

@@ -1,6 +1,6 @@
 #include "kernel/solidify/shells/solid_of_shells.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/solidify/planes/plane_clusters.h"
 #include "kernel/solidify/planes/snap.h"
 #include "kernel/solidify/shells/facets.h"

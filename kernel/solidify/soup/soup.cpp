@@ -1,8 +1,8 @@
 #include "kernel/solidify/soup/soup.h"
 
 #include "kernel/base/assert.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/geometry/near_points.h"
 #include "kernel/model/description/counting_sort.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
-#include "kernel/base/numbers.h"
+#include "kernel/base/text/numbers.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/model/building.h"
 #include "kernel/model/tolerances.h"

@@ -1,8 +1,8 @@
 #include "kernel/validate/polygons/ring_checks.h"
 
 #include "kernel/base/assert.h"
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/disjoint_sets.h"
 

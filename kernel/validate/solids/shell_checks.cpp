@@ -1,7 +1,7 @@
 #include "kernel/validate/solids/shell_checks.h"
 
-#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/counted.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/validate/solids/triangle_pairs.h"

@@ -1,6 +1,6 @@
 #include "studio/session/learning/learning_job.h"
 
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 #include "studio/session/labels/pack_answer.h"
 
 #include <exception>

@@ -1,4 +1,4 @@
-#include "kernel/segment/cuts/ring_cut.h"
+#include "kernel/segment/removal/ring_cut.h"
 
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"

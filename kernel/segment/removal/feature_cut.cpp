@@ -1,4 +1,4 @@
-#include "kernel/segment/cuts/feature_cut.h"
+#include "kernel/segment/removal/feature_cut.h"
 
 #include "kernel/base/index.h"
 

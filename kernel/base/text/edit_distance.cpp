@@ -1,4 +1,4 @@
-#include "kernel/base/edit_distance.h"
+#include "kernel/base/text/edit_distance.h"
 
 #include <algorithm>
 #include <vector>

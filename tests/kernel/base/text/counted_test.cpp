@@ -1,4 +1,4 @@
-#include "kernel/base/counted.h"
+#include "kernel/base/text/counted.h"
 
 #include <cstddef>
 

@@ -5,9 +5,9 @@
 #include "kernel/geometry/outlines.h"
 #include "kernel/segment/boundary/parting.h"
 #include "kernel/segment/cuts/carve.h"
-#include "kernel/segment/cuts/feature_cut.h"
 #include "kernel/segment/cuts/patch.h"
-#include "kernel/segment/cuts/ring_cut.h"
+#include "kernel/segment/removal/feature_cut.h"
+#include "kernel/segment/removal/ring_cut.h"
 
 #include <algorithm>
 #include <cstdint>

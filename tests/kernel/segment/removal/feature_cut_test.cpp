@@ -1,7 +1,7 @@
-#include "kernel/segment/cuts/feature_cut.h"
+#include "kernel/segment/removal/feature_cut.h"
 
+#include "tests/kernel/segment/removal/cut_body.h"
 #include "tests/support/houses.h"
-#include "tests/support/segmented.h"
 
 #include <string>
 
@@ -10,35 +10,16 @@
 namespace oriel {
 namespace {
 
+using test::CutBody;
 using test::Segmented;
 
-/// Loop by loop, half-edge by half-edge.
-std::vector<std::vector<EdgeId>> rims_of(const detail::CutCap& cap) {
-  std::vector<std::vector<EdgeId>> rims;
-  for (const detail::CapLoop& loop : cap.loops) {
-    rims.emplace_back();
-    for (const detail::CapEdge& edge : loop.edges) rims.back().push_back(edge.rim);
-  }
-  return rims;
-}
-
-/// Asks for the cut of each feature with one plane and calls visit(body, feature, cut) for those
-/// that follow edges.
+/// Calls visit(body, feature, cut) for the cuts that follow edges.
 template <class Visit>
 void for_each_bare_cut(const Segmented& s, Visit visit) {
-  detail::World world{detail::PlaneTable(s.solid.planes),
-                      detail::PointTable(s.solid, world.planes)};
-  detail::Boundary body = boundary_of(s.solid, 0, world);
-  for (const Feature& f : s.segmentation.features) {
-    const bool is_material = f.sense == Sense::protrusion;
-    if (f.planes.size() != 1 || (!is_material && f.sense != Sense::hole)) continue;
-    const auto side = world.planes.find(s.segmentation.planes[f.planes[0].index()]);
-    if (!side) continue;
-    const int direction = ((*side & 1) == 0) == is_material ? 1 : -1;
-    const auto cut = find_feature_cut(body, *side >> 1, direction, is_material, f.cap_point,
-                                      {-1, 0.001, false, true});
-    if (cut && cut->caps) visit(body, f, *cut);
-  }
+  CutBody cuts(s);
+  cuts.for_each_cut([&](const test::AskedCut& asked, const auto& cut) {
+    if (cut && cut->caps) visit(cuts.body, asked.feature, *cut);
+  });
 }
 
 TEST_SUITE("kernel/segment") {
@@ -56,7 +37,7 @@ TEST_SUITE("kernel/segment") {
         REQUIRE(caps.size() == cut.caps->size());
         for (std::size_t i = 0; i < caps.size(); ++i) {
           CHECK(caps[i].side == (*cut.caps)[i].side);
-          CHECK(rims_of(caps[i]) == rims_of((*cut.caps)[i]));
+          CHECK(test::rims_of(caps[i]) == test::rims_of((*cut.caps)[i]));
         }
         CHECK(take_off(body, *cut.caps, f.sense == Sense::hole, {}, {}));
         ++count;
