@@ -148,7 +148,15 @@ void read_with(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   }
   if (const YamlNode* of = section.find("of"))
     entry.with_of = read_class(*of, "the class after 'of'", loader);
-  if (const YamlNode* as = section.find("as")) entry.with_as = read_belonging(*as, loader);
+  const YamlNode* as = section.find("as");
+  if (as == nullptr) return;
+  entry.with_as = read_belonging(*as, loader);
+  const bool draws_nothing = entry.operation == "omit" || entry.operation == "flatten";
+  if (entry.with_as != Belonging::goes && draws_nothing)
+    loader.findings.error(
+        Code::R211, as->span,
+        "'as' says what becomes of things when the feature is drawn again, and '" +
+            entry.operation + "' only takes it away: leave it out");
 }
 
 void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::string>& ids,

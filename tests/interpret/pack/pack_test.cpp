@@ -239,15 +239,19 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("what belongs to a feature goes, moves or grows with it") {
-    const auto found = [](const std::string& as) {
-      return line_fault(
-          "generalise: [{id: a, scale: \"1:9 ..\", for: any, do: omit, "
-          "with: {by: beside, as: " +
-          as + "}}]");
+    const auto found = [](const std::string& operation, const std::string& as) {
+      return line_fault("generalise: [{id: a, scale: \"1:9 ..\", for: any, do: " + operation +
+                        ", with: {by: beside, as: " + as + "}}]");
     };
-    for (const char* as : {"goes", "moves", "grows"}) CHECK(found(as).empty());
-    CHECK(found("stays").starts_with(
-        "t.yaml:4:82: R211 'as' is one of goes, moves, grows, not 'stays'\n"));
+    for (const char* as : {"goes", "moves", "grows"}) CHECK(found("displace", as).empty());
+    CHECK(found("displace", "stays")
+              .starts_with("t.yaml:4:86: R211 'as' is one of goes, moves, grows, not 'stays'\n"));
+    CHECK(found("omit", "goes").empty());
+    for (const char* as : {"moves", "grows"})
+      CHECK(found("omit", as)
+                .starts_with("t.yaml:4:82: R211 'as' says what becomes of things when the feature "
+                             "is drawn again, and "
+                             "'omit' only takes it away: leave it out\n"));
   }
 
   TEST_CASE("codes and types of what is written are checked") {
