@@ -7,6 +7,7 @@
 #include "interpret/surfaces/surface_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -108,10 +109,8 @@ std::string place_of(const Pack& pack, rules::SourceSpan span) {
   return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
-std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, std::size_t row,
+std::string rule_lines(const SurfaceRules& surfaces, rules::Evaluator& evaluator, std::size_t row,
                        int last) {
-  const rules::EvaluationContext context(surfaces.pack, table);
-  rules::Evaluator evaluator(surfaces.pack, context);
   const rules::FeatureRows rows = rules::rows_of(static_cast<int>(row));
   std::string text;
   for (std::size_t r = 0; r < surfaces.rules.size(); ++r) {
@@ -154,13 +153,24 @@ std::vector<int> decide_all(const Pack& pack, const SurfaceTable& table) {
   return std::vector<int>(table.rows(), -1);
 }
 
-std::string explanation_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
-                           const SurfaceVerdict& verdict, int deciding) {
-  std::string text =
-      fmt::format("{} by {}\n", verdict.type, verdict.rule.empty() ? "hosts" : verdict.rule);
-  text += attribute_lines(table, row);
-  if (pack.surfaces) text += rule_lines(*pack.surfaces, table, row, deciding);
-  return text;
+std::vector<std::string> explanations_of(const Pack& pack, const SurfaceTable& table,
+                                         std::span<const int> rows) {
+  const auto deciding = decide_all(pack, table);
+  std::optional<rules::EvaluationContext> context;
+  std::optional<rules::Evaluator> evaluator;
+  if (pack.surfaces)
+    evaluator.emplace(pack.surfaces->pack, context.emplace(pack.surfaces->pack, table));
+  std::vector<std::string> texts;
+  texts.reserve(rows.size());
+  for (const int r : rows) {
+    const auto row = static_cast<std::size_t>(r);
+    const SurfaceVerdict verdict = verdict_of(pack, table, row, deciding[row]);
+    texts.push_back(
+        fmt::format("{} by {}\n", verdict.type, verdict.rule.empty() ? "hosts" : verdict.rule) +
+        attribute_lines(table, row));
+    if (evaluator) texts.back() += rule_lines(*pack.surfaces, *evaluator, row, deciding[row]);
+  }
+  return texts;
 }
 
 std::string reason_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
@@ -246,20 +256,11 @@ std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const Surfa
 }
 
 std::vector<std::string> explain_surfaces(const RuleBase& base, const SurfaceTable& table) {
-  const Pack& pack = base.pack();
-  const auto deciding = decide_all(pack, table);
-  const auto verdicts = verdicts_of(pack, table, deciding);
-  std::vector<std::string> texts;
-  texts.reserve(table.rows());
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    texts.push_back(explanation_of(pack, table, row, verdicts[row], deciding[row]));
-  return texts;
+  return explanations_of(base.pack(), table, all_rows(table));
 }
 
 std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std::size_t row) {
-  const Pack& pack = base.pack();
-  const auto deciding = decide_all(pack, table);
-  return explanation_of(pack, table, row, verdicts_of(pack, table, deciding)[row], deciding[row]);
+  return explanations_of(base.pack(), table, std::array{static_cast<int>(row)}).front();
 }
 
 std::vector<std::string> surface_reasons(const RuleBase& base, const SurfaceTable& table,
