@@ -136,16 +136,18 @@ class Evaluation {
     std::ranges::fill(is_in_cell_, std::nullopt);
   }
 
-  /// Beside every facet, on both sides; none within kTooNear_m of a facet's plane.
-  [[nodiscard]] std::vector<Vec3> points() const {
-    std::vector<Vec3> points;
+  /// Calls `visit(point)` beside every facet, on both sides, but not within kTooNear_m of a facet's
+  /// plane, until the work is used up.
+  template <class Visit>
+  void for_each_point(Visit visit) {
     for (const auto& panes : panes_)
       for (const CellPane& pane : panes)
         if (const auto p = detail::interior_point(pane.outlines, pane.plane->normal))
-          for (const double side : {kBeside_m, -kBeside_m})
-            points.push_back(*p + side * pane.plane->normal);
-    std::erase_if(points, [&](Vec3 p) { return is_too_near(p); });
-    return points;
+          for (const double side : {kBeside_m, -kBeside_m}) {
+            if (work_.is_used_up()) return;
+            const Vec3 beside = *p + side * pane.plane->normal;
+            if (!is_too_near(beside)) visit(beside);
+          }
   }
 
   [[nodiscard]] bool is_in(const TreeView& view, NodeId id) {
@@ -171,13 +173,15 @@ class Evaluation {
            p.z >= box.min.z - margin_m && p.z <= box.max.z + margin_m;
   }
 
-  [[nodiscard]] bool is_too_near(Vec3 p) const {
-    for (std::size_t c = 0; c < panes_.size(); ++c)
-      if (is_in_box(boxes_[c], p, kTooNear_m) &&
-          std::ranges::any_of(panes_[c], [&](const CellPane& pane) {
+  [[nodiscard]] bool is_too_near(Vec3 p) {
+    for (std::size_t c = 0; c < panes_.size(); ++c) {
+      if (!is_in_box(boxes_[c], p, kTooNear_m)) continue;
+      work_.add_flat(std::ssize(panes_[c]));
+      if (std::ranges::any_of(panes_[c], [&](const CellPane& pane) {
             return std::abs(dot(pane.plane->normal, p) - pane.plane->offset_m) < kTooNear_m;
           }))
         return true;
+    }
     return false;
   }
 
@@ -240,13 +244,12 @@ BalanceProof prove(const BalancedTree& tree, const Segmentation& segmentation, W
     proof.after_m3 += signs[i] * cell.volume_m3;
   }
   Evaluation evaluation(segmentation, work);
-  for (const Vec3 p : evaluation.points()) {
-    if (work.is_used_up()) break;
+  evaluation.for_each_point([&](Vec3 p) {
     ++proof.points;
     evaluation.go_to(p);
     if (evaluation.is_in(before, before.root) != evaluation.is_in(after, after.root))
       ++proof.differing;
-  }
+  });
   return proof;
 }
 
