@@ -16,6 +16,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -213,22 +214,24 @@ class Clusterer {
 
   /// Puts the polygon on the best place there is, or on a new one; returns its number.
   int place(int polygon) {
+    if (work_.is_used_up()) return place_in_own_class(polygon);
     const PolygonShape& shape = shapes_[at(polygon)];
     const double uncertainty =
         uncertainty_rad(height_of(soup_, polygon, shape.area), offset_tolerance_);
     std::optional<PlaneFit> best;
     const auto try_class = [&](int k) {
       work_.add(std::ssize(soup_.corners_of(polygon)));
-      if (work_.is_used_up()) return;
+      if (work_.is_used_up()) return false;
       const auto here = fit(polygon, uncertainty, k);
-      if (!here) return;
       const auto key = [](const PlaneFit& f) { return std::tuple(!f.is_known, f.residual); };
-      if (!best || key(*here) < key(*best)) best = here;
+      if (here && (!best || key(*here) < key(*best))) best = here;
+      return true;
     };
     if (shape.normal && uncertainty <= angle_tolerance_)
-      std::ranges::for_each(planes_.near_classes(shape.unit), try_class);
+      std::ranges::all_of(planes_.near_classes(shape.unit), try_class);
     else
-      for (int k = 0; k < std::ssize(planes_.classes()); ++k) try_class(k);
+      std::ranges::all_of(std::views::iota(0, static_cast<int>(planes_.classes().size())),
+                          try_class);
     return best ? planes_.number_of(best->normal_class, best->offset) : place_in_own_class(polygon);
   }
 
