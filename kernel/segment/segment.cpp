@@ -71,7 +71,8 @@ void add_leaf(GrowingTree& tree, const WaitingBody& body, LeafFlag flag) {
       tree.cells.add(body.body, body.node, body.sign, flag == LeafFlag::convex, flag, body.feature);
 }
 
-LeafFlag flag_of_uncut(const WaitingBody& body, const CutHistory& history) {
+LeafFlag flag_of_uncut(const WaitingBody& body, const CutHistory& history, const Work& work) {
+  if (work.is_used_up()) return LeafFlag::budget;
   if (history.has_led_back()) return LeafFlag::cycle;
   return body.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own;
 }
@@ -114,17 +115,16 @@ void split(GrowingTree& tree, WaitingBody body) {
   EdgeId bend;
   while (true) {
     if (is_convex(body.body, bend)) return add_leaf(tree, body, LeafFlag::convex);
-    if (tree.work > tree.options.budget) return add_leaf(tree, body, LeafFlag::budget);
+    if (tree.world.work.is_used_up()) return add_leaf(tree, body, LeafFlag::budget);
     if (is_mostly_dead(body.body)) {
       body.body = compacted(body.body);
       chooser.reset();
       bend = {};
     }
     if (!chooser)
-      chooser.emplace(body.body, tree.options, tree.ground, body.own_planes, tree.out.stats,
-                      tree.work);
+      chooser.emplace(body.body, tree.options, tree.ground, body.own_planes, tree.out.stats);
     const std::optional<CutChoice> choice = chooser->next(history.banned());
-    if (!choice) return add_leaf(tree, body, flag_of_uncut(body, history));
+    if (!choice) return add_leaf(tree, body, flag_of_uncut(body, history, tree.world.work));
     if (!history.enter(body.body, *choice)) continue;
     const std::optional<CutResult> result = try_cut(tree, body, *choice);
     if (!result) {

@@ -2,6 +2,7 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/ids.h"
+#include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/boundary/scratch.h"
@@ -21,6 +22,11 @@ namespace oriel::detail {
 
 /// What all bodies of one segmentation share.
 struct World {
+  /// For the bodies of one solid. The work is counted from 0 up to its budget.
+  explicit World(const Solid& solid, Work work_of_all = {})
+      : work(work_of_all), planes(solid.planes), points(solid, planes, work) {}
+
+  Work work;
   PlaneTable planes;
   PointTable points;
   Scratch scratch = {};

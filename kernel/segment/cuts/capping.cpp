@@ -225,12 +225,8 @@ class Capper {
 /// Tells whether a component and its caps make a patch, and measures it.
 class Judge {
  public:
-  Judge(FlatBody& flat, bool is_hole, std::int64_t& work)
-      : flat_(flat),
-        body_(flat.body()),
-        world_(flat.body().world()),
-        is_hole_(is_hole),
-        work_(work) {}
+  Judge(FlatBody& flat, bool is_hole)
+      : flat_(flat), body_(flat.body()), world_(flat.body().world()), is_hole_(is_hole) {}
 
   std::optional<Patch> run(const Component& component) {
     const auto corner = is_stepped(component) ? CornerKind::stepped : corner_of(component);
@@ -299,7 +295,7 @@ class Judge {
     met.start(world_.points.size());
     for (const BodyFacetId f : component.facets) {
       body_.for_each_edge(f, [&](EdgeId e) {
-        work_ += std::ssize(component.sides);
+        world_.work.add(std::ssize(component.sides));
         if (!met.insert(body_.origin(e))) return;
         int most = -1, least = 1;
         for (const SideLimit& limit : limits) {
@@ -411,7 +407,6 @@ class Judge {
   const Boundary& body_;
   World& world_;
   bool is_hole_;
-  std::int64_t& work_;
 };
 
 }  // namespace
@@ -434,11 +429,10 @@ PlaneSide rim_side(const Boundary& body, std::span<const PlaneSide> sides, EdgeI
   return -1;
 }
 
-std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
-                                   std::int64_t& work) {
+std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component) {
   PointTable& points = body.body().world().points;
   const PointTable::PointMark before = points.mark();
-  auto patch = Judge(body, is_hole, work).run(component);
+  auto patch = Judge(body, is_hole).run(component);
   if (!patch) points.forget_since(before);
   return patch;
 }

@@ -4,7 +4,6 @@
 #include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/cuts/carve.h"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,8 +44,7 @@ PlaneSide rim_side(const Boundary& body, std::span<const PlaneSide> sides, EdgeI
 
 /// The component with caps on all its sides. Nothing if it does not lie in the corner that they
 /// make, if the caps do not close, have no area or are pierced, or if it has no volume.
-std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
-                                   std::int64_t& work);
+std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component);
 
 /// The least area that caps in these planes (unit normals, no more than four) have together if they
 /// close a surface. `open` is the sum of area × unit normal over the surface's facets, which closed

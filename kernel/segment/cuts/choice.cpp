@@ -46,21 +46,22 @@ std::optional<double> strict_key(double new_area, double old_area, double limit)
 }  // namespace
 
 Chooser::Chooser(const Boundary& body, const SegmentOptions& options, PlaneSide free_side,
-                 std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work)
+                 std::vector<int> own_planes, SegmentationStats& stats)
     : body_(body),
       world_(body.world()),
       options_(options),
       free_side_(free_side),
       own_planes_(std::move(own_planes)),
       stats_(stats),
-      work_(work),
       tie_(options.tolerances.tie_rel(world_.points.grid_m())),
-      candidates_(body, options, free_side, own_planes_, stats, work),
+      candidates_(body, options, free_side, own_planes_, stats),
       pockets_(body, free_side) {}
 
 std::optional<CutChoice> Chooser::next(const std::set<CutKey>& banned) {
   banned_ = &banned;
-  return options_.order == Order::natural ? natural_next() : paper_next();
+  auto choice = options_.order == Order::natural ? natural_next() : paper_next();
+  // What was still being looked for may have been better.
+  return world_.work.is_used_up() ? std::nullopt : std::move(choice);
 }
 
 std::optional<CutChoice> Chooser::natural_next() {
@@ -98,11 +99,8 @@ std::optional<CutChoice> Chooser::first_of_least_order(std::span<const Patch> pa
 /// The best hole with as few planes as possible, natural or not.
 std::optional<CutChoice> Chooser::corner_cut(std::span<const Patch> natural) {
   for (int order = 2; order <= options_.max_order; ++order) {
-    std::vector<Patch> holes =
-        find_corner_holes(body_,
-                          {order, own_planes_, options_.order == Order::paper,
-                           options_.tolerances.weld_m, options_.budget},
-                          work_);
+    std::vector<Patch> holes = find_corner_holes(
+        body_, {order, own_planes_, options_.order == Order::paper, options_.tolerances.weld_m});
     stats_.hole_tests += holes.size();
     stats_.candidates += holes.size();
     // Of a set of planes that was imprinted all holes are there already.
@@ -141,8 +139,7 @@ std::optional<CutChoice> Chooser::part_on_steps(const CutChoice& choice) {
 std::vector<Patch> Chooser::patches(bool is_hole, double most) {
   std::vector<Patch> found = find_patches(body_, is_hole,
                                           {own_planes_, options_.max_order, free_side_,
-                                           options_.order == Order::natural && !is_hole, most},
-                                          work_);
+                                           options_.order == Order::natural && !is_hole, most});
   (is_hole ? stats_.hole_tests : stats_.protrusion_tests) += found.size();
   stats_.candidates += found.size();
   return found;
@@ -203,11 +200,11 @@ Lump Chooser::lump_of(int pocket, const RegionCandidate& candidate) {
 Lump Chooser::flood(const RegionCandidate& candidate) {
   if (candidate.section != flooded_) {
     finder_.emplace(body_, *candidate.section);
-    work_ += std::ssize(candidate.section->crossings);
+    world_.work.add(std::ssize(candidate.section->crossings));
   }
   flooded_ = candidate.section;
   Lump lump = finder_->find(candidate.region);
-  work_ += finder_->steps();
+  world_.work.add(finder_->steps());
   return lump;
 }
 
@@ -316,7 +313,7 @@ void Chooser::take_candidates(std::vector<RegionCandidate>& candidates, Pass pas
 /// features are dropped.
 void Chooser::check_leaders(std::vector<RegionCandidate>& candidates, Pass pass) {
   const double group = 1 + std::max(tie_, options_.tolerances.value_rel);
-  while (!candidates.empty() || !waiting_.empty()) {
+  while ((!candidates.empty() || !waiting_.empty()) && !world_.work.is_used_up()) {
     double least = waiting_.empty() ? candidates[0].key : waiting_.front().first;
     for (const RegionCandidate& c : candidates) least = std::min(least, c.key);
     take_candidates(candidates, pass, least * group);

@@ -54,9 +54,10 @@ class Chooser {
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of this
   /// body.
   Chooser(const Boundary& body, const SegmentOptions& options, PlaneSide free_side,
-          std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work);
+          std::vector<int> own_planes, SegmentationStats& stats);
 
-  /// The best cut by the order that is not `banned`, or nothing: the body is a leaf.
+  /// Returns the best cut by the order that is not `banned`, or nothing: the body is a leaf, or the
+  /// world's work is used up.
   std::optional<CutChoice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
@@ -128,7 +129,6 @@ class Chooser {
   PlaneSide free_side_;
   std::vector<int> own_planes_;
   SegmentationStats& stats_;
-  std::int64_t& work_;
   double tie_;  ///< values that are closer, relatively, are the same
   CutCandidates candidates_;
   const std::set<CutKey>* banned_ = nullptr;

@@ -40,22 +40,22 @@ class CornerCutter {
  public:
   /// `old_edges` and `old_points`: so many there were before the planes were imprinted.
   CornerCutter(std::shared_ptr<const Boundary> body, std::span<const PlaneSide> sides,
-               int old_edges, int old_points, double weld_m, std::int64_t& work)
+               int old_edges, int old_points, double weld_m)
       : old_edges_(old_edges),
         old_points_(old_points),
         body_(std::move(body)),
         sides_(sides),
-        weld_m_(weld_m),
-        work_(work) {}
+        weld_m_(weld_m) {}
 
   std::vector<Patch> run() {
-    work_ += 2 * body_->half_edge_count();  // it is indexed, and asked what lies behind the planes
+    // It is indexed, and asked what lies behind the planes.
+    body_->world().work.add(2 * body_->half_edge_count());
     std::vector<Patch> patches;
     const std::vector<Component> components = components_behind();
     if (components.empty()) return patches;
     FlatBody flat(*body_);
     for (const Component& component : components) {
-      auto patch = cap_component(flat, true, component, work_);
+      auto patch = cap_component(flat, true, component);
       if (!patch || !is_exact(component)) continue;
       patch->is_natural =
           std::ranges::all_of(component.rim, [&](EdgeId e) { return e.value < old_edges_; });
@@ -159,20 +159,20 @@ class CornerCutter {
   std::shared_ptr<const Boundary> body_;
   std::span<const PlaneSide> sides_;
   double weld_m_;
-  std::int64_t& work_;
 };
 
 class CornerHoleFinder {
  public:
-  CornerHoleFinder(const Boundary& body, const CornerHoleOptions& options, std::int64_t& work)
-      : body_(body.without_dead()), options_(options), work_(work) {
+  CornerHoleFinder(const Boundary& body, const CornerHoleOptions& options)
+      : body_(body.without_dead()), work_(body.world().work), options_(options) {
     for (const BodyFacetId f : body.living_facets()) all_sides_.insert(body.facet(f).side);
   }
 
   std::vector<Patch> run() {
-    const std::vector<Component> groups = hole_components(body_, work_);
+    const std::vector<Component> groups = hole_components(body_);
     number_groups(groups);
     for (const Component& group : groups) {
+      if (work_.is_used_up()) break;
       if (group.facets.size() < 2) continue;
       const Component component = options_.has_all_sides ? with_neighbours(group, groups) : group;
       levels_.clear();
@@ -222,7 +222,7 @@ class CornerHoleFinder {
   /// All sets of the order that can make a corner, each once. They are grown plane by plane, as
   /// what a set cannot cap none can that has more planes.
   void try_sets(std::span<const PlaneSide> sides, std::size_t first) {
-    for (std::size_t i = first; i < sides.size() && work_ <= options_.budget; ++i) {
+    for (std::size_t i = first; i < sides.size() && !work_.is_used_up(); ++i) {
       if (!fits(sides[i]) || !grow(sides[i])) continue;
       if (std::ssize(set_) == options_.order)
         try_set();
@@ -252,7 +252,7 @@ class CornerHoleFinder {
     SetLevel grown{side};
     unsigned met = 0;
     bool has_bend = false;
-    work_ += std::ssize(before.edges);
+    work_.add(std::ssize(before.edges));
     for (ReachingEdge reaching : before.edges) {
       const int from = level(body_.origin(reaching.edge), side),
                 to = level(body_.target(reaching.edge), side);
@@ -298,7 +298,7 @@ class CornerHoleFinder {
     last.mark = body_.world().points.mark();
     if (count > 1 && before == nullptr) return nullptr;
     auto body = copy_of(before != nullptr ? *before : body_);
-    work_ += 2 * body->half_edge_count();  // it is copied, and indexed and changed
+    work_.add(2 * body->half_edge_count());  // it is copied, and indexed and changed
     if (imprint_all(*body, last.side, options_.weld_m)) last.body = std::move(body);
     return last.body;
   }
@@ -312,6 +312,7 @@ class CornerHoleFinder {
       body_.for_each_edge(f, [&](EdgeId e) {
         if (!body_.is_reflex(e)) sides.insert(body_.side_of_edge(body_.twin(e)));
       });
+    work_.add(std::ssize(all_sides_) * std::ssize(component.facets));
     for (const PlaneSide side : all_sides_)
       if (std::ranges::any_of(component.facets, [&](BodyFacetId f) { return crosses(f, side); }))
         sides.insert(side);
@@ -351,14 +352,14 @@ class CornerHoleFinder {
     const auto body = imprinted(set_.size());
     if (body == nullptr) return;
     auto patches =
-        CornerCutter(body, set_, body_.half_edge_count(), old_points, options_.weld_m, work_).run();
+        CornerCutter(body, set_, body_.half_edge_count(), old_points, options_.weld_m).run();
     levels_.back().is_kept = !patches.empty();
     std::ranges::move(patches, std::back_inserter(patches_));
   }
 
   const Boundary body_;  ///< without what is dead, as it is copied for every set
+  Work& work_;
   const CornerHoleOptions& options_;
-  std::int64_t& work_;
   std::set<PlaneSide> all_sides_;
   IndexedVector<BodyFacetId, int> group_of_;
   std::vector<PlaneSide> set_;  ///< at hand
@@ -370,9 +371,8 @@ class CornerHoleFinder {
 
 }  // namespace
 
-std::vector<Patch> find_corner_holes(const Boundary& body, const CornerHoleOptions& options,
-                                     std::int64_t& work) {
-  return CornerHoleFinder(body, options, work).run();
+std::vector<Patch> find_corner_holes(const Boundary& body, const CornerHoleOptions& options) {
+  return CornerHoleFinder(body, options).run();
 }
 
 void remove_seams(Boundary& body) {

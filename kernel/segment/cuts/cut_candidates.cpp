@@ -43,12 +43,11 @@ bool is_without_cuts(const Section& section) {
 
 CutCandidates::CutCandidates(const Boundary& body, const SegmentOptions& options,
                              PlaneSide free_side, std::span<const int> own_planes,
-                             SegmentationStats& stats, std::int64_t& work)
+                             SegmentationStats& stats)
     : body_(body),
       world_(body.world()),
       section_options_{free_side, options.tolerances.weld_m, options.order == Order::natural},
       stats_(stats),
-      work_(work),
       planes_(split_planes_of(body, own_planes)),
       edges_(body, planes_),
       chains_(body, planes_, free_side, section_options_.are_necks_free),
@@ -103,8 +102,8 @@ void CutCandidates::invalidate(std::size_t k, const RestChange& change) {
 }
 
 void CutCandidates::refresh(bool natural_only) {
-  if (natural_only && chains_.refresh()) work_ += body_.half_edge_count();
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+  if (natural_only) chains_.refresh();
+  for (std::size_t i = 0; i < candidates_.size() && !world_.work.is_used_up(); ++i) {
     CutCandidate& one = candidates_[i];
     if (one.state == CutCandidate::State::cached || one.state == CutCandidate::State::active)
       continue;
@@ -121,7 +120,7 @@ void CutCandidates::refresh(bool natural_only) {
 /// Takes the loops that have gone from a section. False if it is to be made anew.
 bool CutCandidates::prune(CutCandidate& candidate) {
   Section& section = section_of(candidate);
-  work_ += std::ssize(section.crossings);
+  world_.work.add(std::ssize(section.crossings));
   if (!prune_section(body_, section, section_options_)) return false;
   candidate.state = CutCandidate::State::active;
   if (is_without_cuts(section)) {
@@ -139,7 +138,7 @@ void CutCandidates::make_section(CutCandidate& candidate) {
   fresh_.plane = plane;
   fresh_.direction = candidate.direction;
   section_at(body_, fresh_, edges, section_options_);
-  work_ += std::ssize(edges);
+  world_.work.add(std::ssize(edges));
   if (fresh_.old_areas[1] > 0) ++stats_.protrusion_tests;
   if (fresh_.old_areas[0] > 0) ++stats_.hole_tests;
   for (const Region& region : fresh_.regions)

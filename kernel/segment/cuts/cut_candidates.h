@@ -56,12 +56,12 @@ class CutCandidates {
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of the
   /// body.
   CutCandidates(const Boundary& body, const SegmentOptions& options, PlaneSide free_side,
-                std::span<const int> own_planes, SegmentationStats& stats, std::int64_t& work);
+                std::span<const int> own_planes, SegmentationStats& stats);
 
   /// Tells that the body has changed in this way and in no other since the last call.
   void invalidate(std::span<const RestChange> changes);
-  /// Brings all candidates up to date. With `natural_only` those in which no natural region can be
-  /// stay stale, without regions.
+  /// Brings all candidates up to date, as long as there is work left. With `natural_only` those in
+  /// which no natural region can be stay stale, without regions.
   void refresh(bool natural_only);
 
   [[nodiscard]] std::size_t size() const { return candidates_.size(); }
@@ -83,7 +83,6 @@ class CutCandidates {
   World& world_;
   SectionOptions section_options_;
   SegmentationStats& stats_;
-  std::int64_t& work_;
   std::vector<int> planes_;  ///< the split planes, ascending
   std::vector<PlanesOfClass> classes_;
   EdgeIndex edges_;

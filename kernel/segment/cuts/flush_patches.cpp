@@ -12,18 +12,18 @@ namespace {
 
 class FlushPatchFinder {
  public:
-  FlushPatchFinder(FlatBody& flat, const PatchOptions& options, std::vector<Patch>& patches,
-                   std::int64_t& work)
+  FlushPatchFinder(FlatBody& flat, const PatchOptions& options, std::vector<Patch>& patches)
       : flat_(flat),
         body_(flat.body()),
         planes_(body_.world().planes),
         options_(options),
-        patches_(patches),
-        work_(work) {}
+        patches_(patches) {}
 
   void run() {
-    for (const BodyFacetId f : body_.facet_ids())
+    for (const BodyFacetId f : body_.facet_ids()) {
+      if (body_.world().work.is_used_up()) return;
       if (body_.is_alive(f) && body_.facet(f).side != options_.free_side) look_along(f);
+    }
   }
 
  private:
@@ -77,8 +77,7 @@ class FlushPatchFinder {
     if (planes_.class_of(one >> 1) == planes_.class_of(other >> 1)) return;
     if (!do_meet(before, bump.after, planes_.normal(body_.facet(f).side))) return;
     if (!find_component(f, bump, {one, other})) return;
-    if (auto patch = cap_component(flat_, false, component_, work_))
-      patches_.push_back(std::move(*patch));
+    if (auto patch = cap_component(flat_, false, component_)) patches_.push_back(std::move(*patch));
   }
 
   [[nodiscard]] bool can_cut(PlaneSide side) const {
@@ -115,7 +114,7 @@ class FlushPatchFinder {
     bool is_bounded = true;
     for (std::size_t i = 0; is_bounded && i < component_.facets.size(); ++i)
       body_.for_each_edge(component_.facets[i], [&](EdgeId e) {
-        ++work_;
+        body_.world().work.add(1);
         const BodyFacetId g = body_.facet_of(body_.twin(e));
         const PlaneSide beyond = body_.facet(g).side;
         const bool is_bound = is_limit(beyond);
@@ -140,16 +139,14 @@ class FlushPatchFinder {
   const PlaneTable& planes_;
   const PatchOptions& options_;
   std::vector<Patch>& patches_;
-  std::int64_t& work_;
   std::vector<EdgeId> corners_;  ///< that turn inward, of the outline at hand
   Component component_;          ///< of the bump at hand
 };
 
 }  // namespace
 
-void add_flush_patches(FlatBody& body, const PatchOptions& options, std::vector<Patch>& patches,
-                       std::int64_t& work) {
-  FlushPatchFinder(body, options, patches, work).run();
+void add_flush_patches(FlatBody& body, const PatchOptions& options, std::vector<Patch>& patches) {
+  FlushPatchFinder(body, options, patches).run();
 }
 
 }  // namespace oriel::detail

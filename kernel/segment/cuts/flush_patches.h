@@ -2,7 +2,6 @@
 
 #include "kernel/segment/cuts/patch.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace oriel::detail {
@@ -11,7 +10,6 @@ namespace oriel::detail {
 /// chimney astride a ridge in the plane of the gable. The facet belongs to the part and to the rest
 /// and is split where the two planes meet it: along the edges that it has there with the rest, up
 /// to where these meet inside it.
-void add_flush_patches(FlatBody& body, const PatchOptions& options, std::vector<Patch>& patches,
-                       std::int64_t& work);
+void add_flush_patches(FlatBody& body, const PatchOptions& options, std::vector<Patch>& patches);
 
 }  // namespace oriel::detail

@@ -1,6 +1,7 @@
 #include "kernel/segment/cuts/patch.h"
 
 #include "kernel/base/index.h"
+#include "kernel/model/description/counting_sort.h"
 #include "kernel/segment/cuts/flush_patches.h"
 
 #include <algorithm>
@@ -33,13 +34,12 @@ constexpr auto kOrders = [] {
 
 class PatchFinder {
  public:
-  PatchFinder(const Boundary& body, bool is_hole, const PatchOptions& options, std::int64_t& work)
+  PatchFinder(const Boundary& body, bool is_hole, const PatchOptions& options)
       : body_(body),
         flat_(body),
         world_(body.world()),
         is_hole_(is_hole),
         options_(options),
-        work_(work),
         number_of_(at(body.facet_count()), -1) {}
 
   std::vector<Patch> run() {
@@ -49,7 +49,7 @@ class PatchFinder {
     Component alone, widened;
     met_groups_.reserve(4 * grown_.size());
     const std::size_t most = options_.max_order < 0 ? 0 : at(options_.max_order);
-    for (int n = 0; n < std::ssize(grown_); ++n) {
+    for (int n = 0; n < std::ssize(grown_) && !world_.work.is_used_up(); ++n) {
       start_with(n);
       if (!find_sides(alone, std::max(most, kMostLimits))) continue;
       offer(alone);
@@ -58,7 +58,7 @@ class PatchFinder {
         if (is_met_first() && find_sides(widened, most)) offer(widened);
       });
     }
-    if (options_.is_natural_order && most > 1) add_flush_patches(flat_, options_, patches_, work_);
+    if (options_.is_natural_order && most > 1) add_flush_patches(flat_, options_, patches_);
     return std::move(patches_);
   }
 
@@ -249,16 +249,28 @@ class PatchFinder {
       if (side != component.ground) sides.push_back(side);
     if (sides.size() < 3 || sides.size() > kMostLimits) return;
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
-    for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
-    for (std::size_t i = 0; i < grown_.size(); ++i) {
-      unsigned own = 0;
-      for (const PlaneSide side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
-      at_hand_[i].own_limits = own;
+    if (groups_by_side_.items.empty()) sort_groups_by_side();
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      limit_bits_[at(sides[i])] = 1U << i;
+      for (const int group : groups_by_side_[at(sides[i])])
+        at_hand_[at(group)].own_limits |= 1U << i;
     }
     // Widened once more there, as few as they are: in ascending order, which ties are decided by.
     const auto sets = sets_to_widen_in(n, sides.size());
     for (auto set = sets.rbegin(); set != sets.rend(); ++set) visit(*set);
-    for (const PlaneSide side : sides) limit_bits_[at(side)] = 0;
+    for (const PlaneSide side : sides) {
+      limit_bits_[at(side)] = 0;
+      for (const int group : groups_by_side_[at(side)]) at_hand_[at(group)].own_limits = 0;
+    }
+  }
+
+  void sort_groups_by_side() {
+    Numbers group_of(sides_.size());
+    for (int n = 0; n < std::ssize(grown_); ++n)
+      for (std::size_t i = grown_[at(n)].sides.first; i < grown_[at(n)].sides.last; ++i)
+        group_of[i] = n;
+    groups_by_side_ = sort_into_buckets(sides_, 2 * at(world_.planes.size()));
+    for (int& item : groups_by_side_.items) item = group_of[at(item)];
   }
 
   /// Descending. A widening that fails tells of all sets with fewer planes, as it goes further in
@@ -294,7 +306,7 @@ class PatchFinder {
       const Grown& group = grown_[at(groups[i])];
       area += group.area;
       const auto beyond = group.beyond.of(beyond_);
-      work_ += std::ssize(beyond);
+      world_.work.add(std::ssize(beyond));
       if (2 * area > surface_) return ~0U;
       unsigned met = 0;
       for (const auto& next : beyond) {  // without branches, which nobody could foresee
@@ -317,7 +329,7 @@ class PatchFinder {
   void offer(Component& component) {
     if (!can_be_capped(component) || !may_be_chosen(component)) return;
     find_facets(component);
-    if (auto patch = cap_component(flat_, is_hole_, component, work_))
+    if (auto patch = cap_component(flat_, is_hole_, component))
       patches_.push_back(std::move(*patch));
   }
 
@@ -367,7 +379,6 @@ class PatchFinder {
   World& world_;
   bool is_hole_;
   const PatchOptions& options_;
-  std::int64_t& work_;
   IndexedVector<BodyFacetId, int> number_of_;  ///< the group that a facet is in
   std::vector<Grown> grown_;
   // Of the groups, one after the other.
@@ -387,6 +398,7 @@ class PatchFinder {
   std::span<const int> widened_;  ///< the groups at hand, the first in queue_
   /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
   std::vector<unsigned> limit_bits_;
+  Buckets groups_by_side_;  ///< by one of their own sides; empty: not sorted yet
   /// Groups that were at hand together, in met_groups_, by a name that others hardly have.
   std::unordered_multimap<std::uint64_t, ListRange> met_;
   std::vector<int> met_groups_;
@@ -395,15 +407,14 @@ class PatchFinder {
 
 }  // namespace
 
-std::vector<Component> hole_components(const Boundary& body, std::int64_t& work) {
-  work += body.half_edge_count();
-  return PatchFinder(body, true, {}, work).components();
+std::vector<Component> hole_components(const Boundary& body) {
+  body.world().work.add(body.half_edge_count());
+  return PatchFinder(body, true, {}).components();
 }
 
-std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options,
-                                std::int64_t& work) {
-  work += body.half_edge_count();
-  return PatchFinder(body, is_hole, options, work).run();
+std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options) {
+  body.world().work.add(body.half_edge_count());
+  return PatchFinder(body, is_hole, options).run();
 }
 
 }  // namespace oriel::detail

@@ -2,7 +2,6 @@
 
 #include "kernel/segment/cuts/capping.h"
 
-#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -29,10 +28,9 @@ struct PatchOptions {
 /// the only ones that can cap it. Equal normals never combine, but in steps. A patch that does not
 /// lie in the corner its planes make, or whose caps do not close, is none. Half-edges that were
 /// looked at are added to `work`.
-std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options,
-                                std::int64_t& work);
+std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options);
 
 /// The groups of facets that hang together over reflex edges, and what is around them.
-std::vector<Component> hole_components(const Boundary& body, std::int64_t& work);
+std::vector<Component> hole_components(const Boundary& body);
 
 }  // namespace oriel::detail

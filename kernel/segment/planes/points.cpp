@@ -30,10 +30,11 @@ bool is_on_segment(Vec3 p, Vec3 from, Vec3 along) {
 
 }  // namespace
 
-PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
+PointTable::PointTable(const Solid& solid, const PlaneTable& planes, Work& work)
     : grid_m_(solid.grid_m),
       near_m_(solid.grid_m * kGridsPerWeld),
       planes_(planes),
+      work_(work),
       points_(solid.vertices.size()),
       ranks_(index(planes.class_count())) {
   list_planes(solid.facets);
@@ -149,6 +150,7 @@ PointRanks PointTable::ranks(int k) {
 void PointTable::rank_by_incidence(int k) {
   constexpr int kUnknown = -1;
   auto& ranks = ranks_[index(k)];
+  work_.add_flat(solid_points_);
   ranks.assign(index(solid_points_), kUnknown);
   const auto& c = planes_.normal_class(k);
   for (const int plane : std::views::reverse(c.planes))

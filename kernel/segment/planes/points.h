@@ -2,6 +2,7 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/indexed_vector.h"
+#include "kernel/base/work.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/planes/planes.h"
@@ -82,8 +83,9 @@ class PointRanks {
 /// ranks; coordinates serve for measuring.
 class PointTable {
  public:
-  /// The solid's vertices keep their indices: PointId{v} is its v-th.
-  PointTable(const Solid& solid, const PlaneTable& planes);
+  /// The solid's vertices keep their indices: PointId{v} is its v-th. Ranks that are decided
+  /// are added to `work`, which so bounds the memory for them.
+  PointTable(const Solid& solid, const PlaneTable& planes, Work& work);
 
   /// Metres per unit of the solid's grid: what is nearer touches.
   [[nodiscard]] double grid_m() const { return grid_m_; }
@@ -171,6 +173,7 @@ class PointTable {
   double grid_m_;
   double near_m_;  ///< points that were met closer than this are one
   const PlaneTable& planes_;
+  Work& work_;
   IndexedVector<PointId, TablePoint> points_;
   IndexedVector<PointId, Vec3> places_;  ///< close together
   std::vector<exact::Rational> exact_;

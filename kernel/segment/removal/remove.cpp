@@ -46,11 +46,7 @@ class FeatureRemover {
  public:
   FeatureRemover(const Solid& solid, const Segmentation& segmentation,
                  const SegmentOptions& options, Work* work)
-      : solid_(solid),
-        segmentation_(segmentation),
-        options_(options),
-        work_(work),
-        world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)} {
+      : solid_(solid), segmentation_(segmentation), options_(options), work_(work), world_(solid) {
     int lumps = 0;
     for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
     for (int lump = 0; lump < lumps; ++lump) bodies_.push_back(boundary_of(solid, lump, world_));
@@ -244,15 +240,13 @@ class FeatureRemover {
 
   std::optional<std::string> remove_by_patch(const Feature& f, std::vector<PlaneSide> sides) {
     std::ranges::sort(sides);
-    std::int64_t work = 0;
     for (Boundary& body : bodies_)
       for (const detail::Patch& patch : find_patches(
                body, f.sense == Sense::hole,
                {{},
                 4,
                 detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg),
-                f.sense == Sense::protrusion},
-               work)) {
+                f.sense == Sense::protrusion})) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
         return take(body, patch.caps, f);
       }

@@ -66,11 +66,14 @@ void EdgeIndex::find_new_runs(const EdgesOfClass& c) {
   runs_.clear();
   runs_.reserve(edges.size());
   const auto rank = body_.world().points.ranks(c.number);
+  std::size_t entries = 0;
   for (const IndexedEdge& edge : edges) {
     const auto [low, high] = std::minmax({rank[edge.from], rank[edge.to]});
     if (low == high) continue;
     runs_.push_back({edge.half, c.ranks.before(low + 1), c.ranks.before(high)});
+    entries += runs_.back().last - runs_.back().first + 1;
   }
+  body_.world().work.add_flat(static_cast<std::int64_t>(entries));
 }
 
 }  // namespace oriel::detail

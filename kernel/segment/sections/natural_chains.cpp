@@ -39,23 +39,23 @@ void NaturalChains::forget() {
   for (ChainsOfClass& c : classes_) c.is_known = false;
 }
 
-bool NaturalChains::refresh() {
+void NaturalChains::refresh() {
   const auto are_all_known = [&] {
     return std::ranges::all_of(classes_, &ChainsOfClass::is_known);
   };
-  if (grown_.empty() && are_all_known()) return false;
+  if (grown_.empty() && are_all_known()) return;
   find_living_edges();
   forget_grown();
-  if (are_all_known()) return false;
+  if (are_all_known()) return;
+  world_.work.add(body_.half_edge_count());
   if (free_side_ >= 0) {
     free_ranks_ = world_.points.ranks(world_.planes.class_of(free_side_ >> 1));
     free_rank_ = world_.planes.rank_of(free_side_ >> 1);
   }
   for (ChainsOfClass& c : classes_) {
-    if (!c.is_known) look(c);
-    c.is_known = true;
+    if (world_.work.is_used_up()) return;
+    if (!std::exchange(c.is_known, true)) look(c);
   }
-  return true;
 }
 
 void NaturalChains::find_living_edges() {
@@ -130,6 +130,7 @@ std::pair<int, int> NaturalChains::ranks_around(PointRanks ranks, EdgeId e, int 
 }
 
 void NaturalChains::look(const ChainsOfClass& c) {
+  world_.work.add_flat(std::ssize(edges_));
   const auto ranks = world_.points.ranks(c.number);
   const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
   normal_ = normal;

@@ -30,8 +30,9 @@ class NaturalChains {
   void expect(std::span<const std::pair<PointId, PointId>> new_edges);
   /// Nothing is known any more.
   void forget();
-  /// Looks again at the classes in which chains may have become more. True if there were any.
-  bool refresh();
+  /// Looks again at the classes in which chains may have become more, as long as there is work
+  /// left.
+  void refresh();
 
   /// Slot 2·i is in front of the i-th plane, 2·i + 1 behind it. As of the last refresh(); where
   /// edges have gone since there may be less.

@@ -6,7 +6,7 @@ namespace oriel::detail {
 
 GrowingTree::GrowingTree(const Solid& solid, const SegmentOptions& how)
     : options(how),
-      world{PlaneTable(solid.planes), PointTable(solid, world.planes)},
+      world(solid, Work(how.budget)),
       cells(solid.facets.size(), world, out),
       instances(world, cells, out),
       ground(ground_side(solid, world.planes, how.tolerances.coplanar_deg)) {

@@ -4,7 +4,6 @@
 #include "kernel/segment/tree/cells.h"
 #include "kernel/segment/tree/instances.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace oriel::detail {
@@ -33,7 +32,6 @@ struct GrowingTree {
   Instances instances;
   PlaneSide ground = -1;
   std::vector<WaitingBody> waiting;  ///< the last is split next
-  std::int64_t work = 0;             ///< half-edges that were looked at
 };
 
 }  // namespace oriel::detail

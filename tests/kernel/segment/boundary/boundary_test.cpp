@@ -72,7 +72,7 @@ TEST_SUITE("kernel/segment") {
     Solid solid = test::solid_of(u);
     for (Vertex& v : solid.vertices)
       if (v.point.y == 2) v = {{v.point.x < 2 ? 2 : 2 + 0.6 * solid.grid_m, 0, v.point.z}, false};
-    World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
+    World world(solid);
     Boundary body = boundary_of(solid, 0, world);
     const int before = body.half_edge_count();
     for (const detail::BodyFacetId f : body.living_facets()) body.zip(f);
@@ -85,7 +85,7 @@ TEST_SUITE("kernel/segment") {
     for (const test::NamedBody& named : test::bodies()) {
       CAPTURE(std::string(named.name));
       const Solid solid = test::solid_of(named.make(), {});
-      World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
+      World world(solid);
       Boundary body = boundary_of(solid, 0, world);
       check_lists(body);
       if (!fill_a_hole(body)) continue;
@@ -99,7 +99,7 @@ TEST_SUITE("kernel/segment") {
     for (const test::NamedBody& named : test::bodies()) {
       CAPTURE(std::string(named.name));
       const Solid solid = test::solid_of(named.make(), {});
-      World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
+      World world(solid);
       Boundary body = boundary_of(solid, 0, world);
       if (!fill_a_hole(body)) continue;
       REQUIRE(body.dead_edge_count() > 0);

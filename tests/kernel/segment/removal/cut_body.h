@@ -17,9 +17,7 @@ struct AskedCut {
 /// A body that is asked for the cuts of its features.
 struct CutBody {
   explicit CutBody(const Segmented& from)
-      : s(from),
-        world{detail::PlaneTable(s.solid.planes), detail::PointTable(s.solid, world.planes)},
-        body(boundary_of(s.solid, 0, world)) {}
+      : s(from), world(s.solid), body(boundary_of(s.solid, 0, world)) {}
 
   /// Calls visit(asked, by_section) for each feature of one plane, as the body is by then.
   template <class Visit>
