@@ -1,7 +1,9 @@
 #include "oriel/pipeline/pipeline.h"
 
 #include "interpret/labelling/interpret.h"
+#include "kernel/base/index.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/model/canonical_order.h"
 #include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/rings/ring_features.h"
 #include "kernel/solidify/noise.h"
@@ -258,12 +260,75 @@ void drop_features(const Building& building, const std::exception& fault, Pipeli
   out.issues.push_back(own_fault(building, fault));
 }
 
+/// Gives the polygons that a result names other numbers.
+void renumber(const std::vector<int>& number_of, PipelineResult& out) {
+  const auto renumbered = [&](int polygon) {
+    return polygon < 0 ? polygon : number_of[at(polygon)];
+  };
+  const auto renumber_all = [&](std::vector<int>& polygons) {
+    std::ranges::transform(polygons, polygons.begin(), renumbered);
+    std::ranges::sort(polygons);
+  };
+  for (auto* polygons : {&out.repair.duplicates, &out.repair.dangling, &out.repair.inner})
+    renumber_all(*polygons);
+  for (OpenEdge& edge : out.repair.open_edges) edge.polygon = renumbered(edge.polygon);
+  if (out.solid)
+    for (Facet& facet : out.solid->facets) renumber_all(facet.polygons);
+  if (!out.segmentation) return;
+  for (Cell& cell : out.segmentation->cells)
+    for (Facet& facet : cell.facets) renumber_all(facet.polygons);
+  for (Feature& feature : out.segmentation->features) renumber_all(feature.source_polygons);
+}
+
 void find_surfaces(const Building& building, const RuleBase& rules, const LabelOptions& options,
                    PipelineResult& out) {
   if (options.measures_surfaces)
     describe_all_surfaces(building, out.tolerances, options, out);
   else
     name_surfaces(building, out.tolerances, rules, options, out);
+}
+
+PipelineResult make_solid(const CanonicalOrder& order, const Tolerances& tolerances,
+                          const RepairOptions& repair, Work& work, const StageObserver& observer) {
+  PipelineResult out;
+  try {
+    auto solid = measured(
+        observer, Stage::solidify, "solidified", order.building,
+        [&] { return solid_with_installations(order.building, tolerances, repair, work); },
+        [](const auto& made) {
+          return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
+                             made.issues.size());
+        });
+    append(out.issues, std::move(solid.issues));
+    out.repair = std::move(solid.report);
+    out.solid = std::move(solid.value);
+    renumber(order.to_reading, out);
+  } catch (const std::exception& fault) {
+    out.issues.push_back(own_fault(order.building, fault));
+  }
+  return out;
+}
+
+PipelineResult go_on(PipelineResult out, const Building& building, const CanonicalOrder& order,
+                     const RuleBase* rules, const Tolerances& tolerances,
+                     const LabelOptions& options) {
+  const auto is_ours = [](const Issue& issue) { return issue.code == Code::E901; };
+  look_around(building, options, out);
+  if (std::ranges::none_of(out.issues, is_ours)) {
+    renumber(order.from_reading, out);
+    try {
+      if (options.ignores_semantics)
+        find_features(without_hints(order.building), rules, tolerances, options, out);
+      else
+        find_features(order.building, rules, tolerances, options, out);
+    } catch (const std::exception& fault) {
+      drop_features(building, fault, out);
+    }
+    renumber(order.to_reading, out);
+  }
+  out.tolerances = tolerances;
+  if (rules != nullptr) find_surfaces(building, *rules, options, out);
+  return out;
 }
 
 }  // namespace
@@ -289,41 +354,12 @@ bool has_only_outline(const Building& building) { return building.lod.starts_wit
 PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
                             const RepairOptions& repair, Work& work,
                             const StageObserver& observer) {
-  PipelineResult out;
-  try {
-    auto solid = measured(
-        observer, Stage::solidify, "solidified", building,
-        [&] { return solid_with_installations(building, tolerances, repair, work); },
-        [](const auto& made) {
-          return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
-                             made.issues.size());
-        });
-    append(out.issues, std::move(solid.issues));
-    out.repair = std::move(solid.report);
-    out.solid = std::move(solid.value);
-  } catch (const std::exception& fault) {
-    out.issues.push_back(own_fault(building, fault));
-  }
-  return out;
+  return make_solid(CanonicalOrder(building), tolerances, repair, work, observer);
 }
 
 PipelineResult run_from_solid(PipelineResult out, const Building& building, const RuleBase* rules,
                               const Tolerances& tolerances, const LabelOptions& options) {
-  const auto is_ours = [](const Issue& issue) { return issue.code == Code::E901; };
-  look_around(building, options, out);
-  if (std::ranges::none_of(out.issues, is_ours)) {
-    try {
-      if (options.ignores_semantics)
-        find_features(without_hints(building), rules, tolerances, options, out);
-      else
-        find_features(building, rules, tolerances, options, out);
-    } catch (const std::exception& fault) {
-      drop_features(building, fault, out);
-    }
-  }
-  out.tolerances = tolerances;
-  if (rules != nullptr) find_surfaces(building, *rules, options, out);
-  return out;
+  return go_on(std::move(out), building, CanonicalOrder(building), rules, tolerances, options);
 }
 
 PipelineResult name_segmented(const Building& building, PipelineResult segmented,
@@ -343,18 +379,19 @@ PipelineResult name_segmented(const Building& building, PipelineResult segmented
 PipelineResult run_pipeline(const Building& building, const RuleBase* rules,
                             const LabelOptions& options) {
   const Tolerances& given = options.tolerances;
-  const Tolerances fitted = options.fits_noise ? fitted_to_noise(given, noise_of(building)) : given;
   if (auto issue = no_body(building, options)) {
     PipelineResult without;
     without.issues.push_back(std::move(*issue));
     return run_from_solid(std::move(without), building, rules, given, options);
   }
+  const CanonicalOrder order(building);
+  const Tolerances fitted =
+      options.fits_noise ? fitted_to_noise(given, noise_of(order.building)) : given;
   Work work(options.budget);
-  PipelineResult result =
-      run_from_solid(run_to_solid(building, fitted, options.repair, work, options.observer),
-                     building, rules, fitted, options);
+  PipelineResult result = go_on(make_solid(order, fitted, options.repair, work, options.observer),
+                                building, order, rules, fitted, options);
   if (fitted.plane_offset_m != given.plane_offset_m)
-    result.issues.push_back(noise_note(building, fitted));
+    result.issues.push_back(noise_note(order.building, fitted));
   return result;
 }
 
