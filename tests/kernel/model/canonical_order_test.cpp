@@ -71,9 +71,9 @@ TEST_SUITE("kernel/model") {
   }
 
   TEST_CASE("installations stay behind the polygons of their building") {
-    Building building = test::plain_block();
+    Building building = test::gabled_house();
     building.installations.push_back({"i", building.polygons.size(), building.vertices.size()});
-    const Building low = test::plain_block();
+    const Building low = test::gabled_house();
     const int first = static_cast<int>(building.vertices.size());
     for (const Vec3 p : low.vertices) building.vertices.push_back(p - Vec3{90, 90, 90});
     for (Polygon polygon : low.polygons) {
