@@ -92,7 +92,7 @@ CanonicalOrder::CanonicalOrder(const Building& read) {
   }
   const auto key = [&](int i) {
     const Polygon& p = polygons[at(i)];
-    return std::tie(p.body, p.shell, p.rings, p.hint);
+    return std::tie(p.body, p.rings, p.shell, p.hint);
   };
   const std::vector<int> order =
       sorted_in_parts(parts(read, &JoinedInstallation::first_polygon, polygons.size()),

@@ -19,7 +19,7 @@ struct Solidified : Checked<Solid> {
 /// Vertices are welded and rounded to a grid, polygons are clustered into oriented planes, adjacent
 /// polygons of one plane become one facet (rings kept: facets are never made from triangles), every
 /// shell is oriented outward (cavities inward), and the vertices are put where their planes meet.
-/// Shuffling the input changes nothing but the numbers in Facet::polygons.
+/// Polygons come by body. Of a CanonicalOrder the result depends on the geometry alone.
 ///
 /// Polygons that are no closed shell are repaired as `repair` allows: doubles go, vertices are put
 /// into the edges they lie on, plane holes are closed, and what bounds the enclosed space on one

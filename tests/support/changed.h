@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/model/building.h"
+#include "kernel/model/canonical_order.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,19 @@ inline Building shuffled(const Building& building, std::uint64_t seed,
   }
   if (origin != nullptr) *origin = order;
   return out;
+}
+
+/// The building in its canonical order. `origin` gets the number of each polygon before, or where
+/// it has numbers already those that it has for these.
+inline Building in_order(const Building& building, std::vector<int>* origin = nullptr) {
+  CanonicalOrder order(building);
+  if (origin != nullptr) {
+    const std::vector<int> before = *origin;
+    *origin = order.to_reading;
+    for (int& number : *origin)
+      if (!before.empty()) number = before[static_cast<std::size_t>(number)];
+  }
+  return std::move(order.building);
 }
 
 /// Every polygon without inner rings cut into a fan of triangles (polygons are convex or not looked

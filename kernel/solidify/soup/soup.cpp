@@ -4,12 +4,9 @@
 #include "kernel/base/index.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/geometry/near_points.h"
-#include "kernel/model/description/counting_sort.h"
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -137,30 +134,6 @@ class RingCutter {
   Numbers place_in_path_;  ///< by point, -1 off the path
 };
 
-std::strong_ordering compare_rings(const Soup& soup, int r, int s) {
-  const auto p = soup.ring(r), q = soup.ring(s);
-  return std::lexicographical_compare_three_way(p.begin(), p.end(), q.begin(), q.end());
-}
-
-/// Sorts the rings from `first` to before `end`.
-void sort_rings(Soup& soup, int first, int end) {
-  Numbers order(at(end - first));
-  std::iota(order.begin(), order.end(), first);
-  const auto comes_first = [&](int r, int s) { return compare_rings(soup, r, s) < 0; };
-  if (std::ranges::is_sorted(order, comes_first)) return;
-  std::ranges::sort(order, comes_first);
-  Numbers corners, first_corner;
-  const int begin = soup.first_corner[at(first)];
-  corners.reserve(at(soup.first_corner[at(end)] - begin));
-  first_corner.reserve(order.size());
-  for (const int r : order) {
-    first_corner.push_back(begin + static_cast<int>(corners.size()));
-    corners.insert(corners.end(), soup.ring(r).begin(), soup.ring(r).end());
-  }
-  std::ranges::copy(corners, soup.corners.begin() + begin);
-  std::ranges::copy(first_corner, soup.first_corner.begin() + first);
-}
-
 /// Leaves only the points in use, in their order.
 void drop_unused_points(Soup& soup) {
   std::vector<char> is_used(soup.points.size(), 0);
@@ -195,7 +168,6 @@ int append_polygons(const Building& building, std::span<const int> point_of, Sou
     }
     const int end = cutter.ring_count();
     if (end == first) continue;
-    if (end > first + 1) sort_rings(soup, first, end);
     soup.polygons[count] = {polygon.source, polygon.body, polygon.shell};
     soup.first_ring[++count] = end;
   }
@@ -205,67 +177,6 @@ int append_polygons(const Building& building, std::span<const int> point_of, Sou
   soup.first_ring.resize(count + 1);
   if (!cutter.uses_all_points()) drop_unused_points(soup);
   return dropped;
-}
-
-/// The polygons by body, then rings, then shell, then source.
-Numbers canonical_order(const Soup& soup) {
-  // By the second corner, then stably by the first: that leaves few to be compared.
-  const auto first_corner = [&](int p) { return soup.first_corner[at(soup.first_ring[at(p)])]; };
-  Numbers corner(soup.polygons.size());
-  for (int p = 0; p < soup.polygon_count(); ++p)
-    corner[at(p)] = soup.corners[at(first_corner(p)) + 1];
-  const Numbers by_second = sort_into_buckets(corner, soup.points.size()).items;
-  for (std::size_t i = 0; i < corner.size(); ++i)
-    corner[i] = soup.corners[at(first_corner(by_second[i]))];
-  Numbers order = sort_into_buckets(corner, soup.points.size()).items;
-  for (int& p : order) p = by_second[at(p)];
-
-  const auto starts_alike = [&](int p, int q) {
-    const std::size_t mine = at(first_corner(p)), theirs = at(first_corner(q));
-    return soup.corners[mine] == soup.corners[theirs] &&
-           soup.corners[mine + 1] == soup.corners[theirs + 1];
-  };
-  const auto comes_first = [&](int p, int q) {
-    const auto rings = soup.rings_of(p), others = soup.rings_of(q);
-    const auto compared = std::lexicographical_compare_three_way(
-        rings.begin(), rings.end(), others.begin(), others.end(),
-        [&](int r, int s) { return compare_rings(soup, r, s); });
-    if (compared != 0) return compared < 0;
-    const SoupPolygon &a = soup.polygons[at(p)], &b = soup.polygons[at(q)];
-    return std::pair(a.shell, a.source) < std::pair(b.shell, b.source);
-  };
-  std::size_t start = 0;
-  for (std::size_t i = 1; i <= order.size(); ++i) {
-    if (i < order.size() && starts_alike(order[start], order[i])) continue;
-    if (i - start > 1) std::ranges::sort(std::span(order).subspan(start, i - start), comes_first);
-    start = i;
-  }
-  const auto body = [&](int p) { return soup.polygons[at(p)].body; };
-  if (!std::ranges::is_sorted(order, {}, body)) std::ranges::stable_sort(order, {}, body);
-  return order;
-}
-
-/// The soup with its polygons in that order.
-Soup arranged(Soup soup, const Numbers& order) {
-  Soup out;
-  out.grid_m = soup.grid_m;
-  out.points = std::move(soup.points);
-  out.polygons.resize(soup.polygons.size());
-  out.first_ring.resize(soup.first_ring.size());
-  out.first_corner.resize(soup.first_corner.size());
-  out.corners.resize(soup.corners.size());
-  int ring = 0;
-  int* const corners = out.corners.data();
-  int* corner = corners;
-  for (std::size_t p = 0; p < order.size(); ++p) {
-    out.polygons[p] = soup.polygons[at(order[p])];
-    for (const int r : soup.rings_of(order[p])) {
-      for (const int v : soup.ring(r)) *corner++ = v;
-      out.first_corner[at(++ring)] = static_cast<int>(corner - corners);
-    }
-    out.first_ring[p + 1] = ring;
-  }
-  return out;
 }
 
 }  // namespace
@@ -283,8 +194,7 @@ Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Is
                        fmt::format("{} degenerate after welding at {} m and {} dropped",
                                    counted(dropped, "polygon is", "polygons are"),
                                    tolerances.weld_m, agreeing(dropped, "was", "were"))));
-  const Numbers order = canonical_order(soup);
-  return arranged(std::move(soup), order);
+  return soup;
 }
 
 SoupBuilder::SoupBuilder(const Soup& like) : place_(like.points.size(), -1) {

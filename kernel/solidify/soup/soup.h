@@ -26,9 +26,8 @@ struct SoupPolygon {
 /// Two points of a soup, the smaller first.
 using PointPair = std::pair<int, int>;
 
-/// Welded polygons on the grid, in canonical order: points by coordinates, rings from their
-/// smallest vertex, polygons by their rings. The order of the input has left no trace but
-/// SoupPolygon::source.
+/// Welded polygons on the grid: points by coordinates, rings from their smallest vertex, polygons
+/// in the order of the building, which is a CanonicalOrder where the input's must leave no trace.
 ///
 /// The corners of all rings stand in one list, ring after ring, polygon after polygon. A ring is at
 /// least a triangle and comes to no point twice.
@@ -71,7 +70,7 @@ struct Soup {
 double grid_for(double weld_m);
 
 /// Rounds the vertices to the grid, unites those closer than weld_m, and drops what becomes
-/// degenerate (E304). Needs coordinates in the exact range.
+/// degenerate (E304). Needs coordinates in the exact range, and polygons that come by body.
 Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Issue>& issues);
 
 /// Makes a soup polygon by polygon. Polygons must come by body.

@@ -181,7 +181,7 @@ TEST_SUITE("kernel/solidify") {
     const std::string closed = closed_in(open);
     CHECK(closed == "ground 32, ground 48, wall 48");
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-      Building other = test::shuffled(open, seed);
+      Building other = test::in_order(test::shuffled(open, seed));
       CHECK(closed_in(other) == closed);
       for (Polygon& polygon : other.polygons)
         for (auto& ring : polygon.rings) std::ranges::reverse(ring);

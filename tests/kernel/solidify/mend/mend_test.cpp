@@ -272,12 +272,13 @@ TEST_SUITE("kernel/solidify") {
     const Building fin = test::building_of({{{0, 0, 2}, {0, 0, 3}, {-1, 0, 3}, {-1, 0, 2}}});
     const Building chimney =
         without(box({1, 1, 2}, {1.5, 1.5, 4}), [](Vec3 p) { return p.z == 2; });
-    const Building building = together(together(cube_with_t_vertices(), fin), chimney);
+    const Building building =
+        test::in_order(together(together(cube_with_t_vertices(), fin), chimney));
     const Solidified first = solidify(building);
     REQUIRE(first.value);
     rc::check([&] {
       const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-      const Solidified out = solidify(test::shuffled(building, seed));
+      const Solidified out = solidify(test::in_order(test::shuffled(building, seed)));
       RC_ASSERT(out.value.has_value());
       RC_ASSERT(out.value->facets.size() == first.value->facets.size());
       RC_ASSERT(out.report.dangling.size() == first.report.dangling.size());
