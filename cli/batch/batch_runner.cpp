@@ -153,7 +153,7 @@ bool BatchRunner::begin_status() {
     resume_.emplace(options_, recipe_sha256());
     if (const auto finished = resume_->finished()) {
       was_done_ = true;
-      state_.code = static_cast<ExitCode>(*finished);
+      state_.code = *finished;
       run_log().info("there is nothing left to do: the run was complete");
       return false;
     }
@@ -455,11 +455,11 @@ void BatchRunner::write_status() {
   status.input_sha256 = input_sha256_;
   if (resume_)
     for (const auto& [name, mark] : resume_->read()) status.input_sha256[name] = mark.sha256;
-  if (resume_) status.command_sha256 = resume_->command_sha256();
   status.outputs = resume_ ? resume_->done() : PartialFiles::take_done();
   if (rules_ != nullptr) status.rules_sha256 = rules_->sha256();
   status.config_sha256 = sha256(options_.configuration());
   status.state = state_;
+  if (resume_) status.run_sha256 = run_sha256(status, resume_->command_sha256());
   status_->commit(status);
 }
 

@@ -1,6 +1,7 @@
 #include "cli/batch/result_cache.h"
 
 #include "cli/batch/resume.h"
+#include "cli/batch/status.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -22,7 +23,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kNotesEnding = ".records.jsonl";
-constexpr std::string_view kStatusEnding = ".status.json";
 
 std::string note_text(const ordered_json& line) {
   return line.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
@@ -87,13 +87,9 @@ ResultCache::~ResultCache() {
 void ResultCache::load(const std::string& status, const std::string& recipe_sha256) {
   if (!status.ends_with(kStatusEnding))
     throw std::runtime_error("its name does not end in .status.json");
-  std::ifstream file(status, std::ios::binary);
-  if (!file) throw std::runtime_error("there is none");
-  const ordered_json json = ordered_json::parse(file, nullptr, false);
-  if (!json.is_object() || !json.contains("outputs"))
-    throw std::runtime_error("it is not a status file");
-  notes_path_ = status.substr(0, status.size() - kStatusEnding.size()) + kNotesEnding;
-  const FileMarks marks = marks_of(json.at("outputs"));
+  const FileMarks marks = read_status(status).outputs;
+  notes_path_ =
+      status.substr(0, status.size() - std::string_view(kStatusEnding).size()) + kNotesEnding;
   if (!marks.contains(notes_path_)) throw std::runtime_error("it was made without --reuse");
   for (const auto& [path, mark] : marks) {
     const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

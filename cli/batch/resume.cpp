@@ -1,6 +1,6 @@
 #include "cli/batch/resume.h"
 
-#include "cli/terminal/exit_code.h"
+#include "cli/batch/status.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"
 
@@ -76,32 +76,34 @@ ordered_json to_json(const FileMarks& marks) {
   return json;
 }
 
-std::int64_t whole_number_of(const ordered_json& json) {
-  // To convert a number that is not whole may be undefined; this throws for it.
-  if (!json.is_number_integer()) (void)json.get_ref<const ordered_json::number_integer_t&>();
-  return json.get<std::int64_t>();
+std::uint64_t count_of(const ordered_json& json) {
+  // To convert a number that is not whole may be undefined.
+  if (!json.is_number_integer() || json.get<std::int64_t>() < 0)
+    throw ordered_json::type_error::create(302, "a count is " + json.dump(), &json);
+  return json.get<std::uint64_t>();
+}
+
+std::string reason_of(const ordered_json::exception& error) {
+  const std::string_view text = error.what();
+  return std::string(text.substr(text.find("] ") + 2));
 }
 
 std::map<std::string, int> counts_of(const ordered_json& json) {
   std::map<std::string, int> counts;
-  for (const auto& [name, count] : json.items())
-    counts[name] = static_cast<int>(whole_number_of(count));
+  for (const auto& [name, count] : json.items()) counts[name] = static_cast<int>(count_of(count));
   return counts;
 }
 
 FileMarks marks_of(const ordered_json& json) {
   FileMarks marks;
   for (const auto& [path, mark] : json.items())
-    marks[path] = {static_cast<std::uint64_t>(whole_number_of(mark.at("bytes"))),
-                   static_cast<std::uint64_t>(whole_number_of(mark.at("lines"))),
-                   mark.at("sha256")};
+    marks[path] = {count_of(mark.at("bytes")), count_of(mark.at("lines")), mark.at("sha256")};
   return marks;
 }
 
 JournalState journal_state_of(const ordered_json& json) {
   return {json.at("command"),
-          {static_cast<std::size_t>(whole_number_of(json.at("input"))),
-           static_cast<std::size_t>(whole_number_of(json.at("records"))), json.at("read_sha256")},
+          {count_of(json.at("input")), count_of(json.at("records")), json.at("read_sha256")},
           marks_of(json.at("files"))};
 }
 
@@ -208,28 +210,27 @@ Resume::Resume(const RunOptions& options, const std::string& settings)
 
 namespace {
 
-/// The exit code in the status of a run of that command, if its files still have their hashes.
-std::optional<int> finished_as(const ordered_json& status, const std::string& command_sha256) {
-  if (!status.is_object() || status.value("command_sha256", "") != command_sha256)
-    return std::nullopt;
-  if (status.value("exit_code", 0) == static_cast<int>(ExitCode::input)) return std::nullopt;
-  for (const auto& [name, sha256] : status.at("input_sha256").items())
-    if (sha256_of_file(name) != sha256.get<std::string>()) return std::nullopt;
-  for (const auto& [path, mark] : marks_of(status.at("outputs")))
-    if (PartialFiles::mark_of(path, kWhole) != mark) return std::nullopt;
-  return static_cast<int>(whole_number_of(status.at("exit_code")));
+std::optional<RunStatus> status_at(const std::string& stem) {
+  try {
+    return read_status(stem + kStatusEnding);
+  } catch (const InputError&) {
+    return std::nullopt;  // no status that oriel wrote: all is done again
+  }
 }
 
 }  // namespace
 
-std::optional<int> Resume::finished() const {
+std::optional<ExitCode> Resume::finished() const {
   if (state_) return std::nullopt;
-  std::ifstream file(options_.status_stem + ".status.json", std::ios::binary);
-  try {
-    return finished_as(ordered_json::parse(file, nullptr, false), command_sha256_);
-  } catch (const ordered_json::exception&) {
-    return std::nullopt;  // no status that oriel wrote: all is done again
-  }
+  const auto status = status_at(options_.status_stem);
+  if (!status || status->run_sha256 != run_sha256(*status, command_sha256_) ||
+      status->state.code == ExitCode::input)
+    return std::nullopt;
+  for (const auto& [name, sha256] : status->input_sha256)
+    if (sha256_of_file(name) != sha256) return std::nullopt;
+  for (const auto& [path, mark] : status->outputs)
+    if (PartialFiles::mark_of(path, kWhole) != mark) return std::nullopt;
+  return status->state.code;
 }
 
 void Resume::note(const InputPosition& position, ordered_json state) {

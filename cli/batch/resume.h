@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/batch/run_options.h"
+#include "cli/terminal/exit_code.h"
 #include "kernel/io/files/partial_files.h"
 
 #include <cstdint>
@@ -49,8 +50,10 @@ class Journal {
   FileMarks done_, read_;
 };
 
-/// A whole number; of a number that is none, or too large for one, ordered_json::exception.
-std::int64_t whole_number_of(const nlohmann::ordered_json& json);
+/// A whole number from 0 on; of another value ordered_json::exception.
+std::uint64_t count_of(const nlohmann::ordered_json& json);
+/// Says what is wrong, without the number that the library puts before it.
+std::string reason_of(const nlohmann::ordered_json::exception& error);
 /// Whole numbers by name.
 std::map<std::string, int> counts_of(const nlohmann::ordered_json& json);
 
@@ -93,7 +96,7 @@ class Resume {
   [[nodiscard]] const InputPosition& position() const { return position_; }
   [[nodiscard]] const std::string& path() const { return journal_.path(); }
   /// The exit code of a run that is over, if its inputs and outputs still have their hashes.
-  [[nodiscard]] std::optional<int> finished() const;
+  [[nodiscard]] std::optional<ExitCode> finished() const;
 
   /// A record, or an input, is done. Files that are open are written so far.
   void note(const InputPosition& position, nlohmann::ordered_json state);

@@ -1,6 +1,8 @@
 #include "cli/batch/status.h"
 
 #include "cli/batch/resume.h"
+#include "kernel/base/sha256.h"
+#include "kernel/io/json/json_check.h"
 #include "kernel/model/version.h"
 
 #include <algorithm>
@@ -16,7 +18,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kQuarantine = ".quarantine.jsonl";
-constexpr const char* kStatus = ".status.json";
 
 bool is_utf8(const std::string& text) {
   try {
@@ -61,11 +62,9 @@ ordered_json to_json(const RunState& state) {
 }
 
 RunState run_state_of(const ordered_json& json) {
-  const auto number = [](const ordered_json& value) {
-    return static_cast<int>(whole_number_of(value));
-  };
+  const auto number = [](const ordered_json& value) { return static_cast<int>(count_of(value)); };
   const auto record = [counted = json.at("counted")](std::size_t i) {
-    return static_cast<std::size_t>(whole_number_of(counted.at(i)));
+    return count_of(counted.at(i));
   };
   return {number(json.at("buildings")),
           number(json.at("set_aside")),
@@ -78,7 +77,7 @@ RunState run_state_of(const ordered_json& json) {
 }
 
 StatusWriter::StatusWriter(const std::string& stem)
-    : status_file_(stem + kStatus), quarantine_(stem + kQuarantine) {}
+    : status_file_(stem + kStatusEnding), quarantine_(stem + kQuarantine) {}
 
 void StatusWriter::add(const Record& record, const std::vector<Issue>& errors) {
   if (errors.empty()) return;
@@ -118,7 +117,7 @@ ordered_json StatusWriter::state() const { return {{"codes", codes_}, {"records"
 
 void StatusWriter::restore(const ordered_json& state) {
   codes_ = counts_of(state.at("codes"));
-  records_ = static_cast<int>(whole_number_of(state.at("records")));
+  records_ = static_cast<int>(count_of(state.at("records")));
 }
 
 void StatusWriter::commit(const RunStatus& run) {
@@ -141,11 +140,38 @@ void StatusWriter::commit(const RunStatus& run) {
                       {"features", ordered_json::object()},
                       {"exit_code", static_cast<int>(run.state.code)},
                       {"peak_memory_bytes", peak_memory_bytes()}};
-  if (!run.command_sha256.empty()) status["command_sha256"] = run.command_sha256;
+  if (!run.run_sha256.empty()) status["run_sha256"] = run.run_sha256;
   status["outputs"] = to_json(run.outputs);
   for (const auto& [label, count] : run.state.labels)
     status["features"][label.empty() ? "unknown" : label] = count;
   write_file(status_file_, dumped(status, 2));
+}
+
+std::string run_sha256(const RunStatus& run, std::string_view command_sha256) {
+  const ordered_json sealed{command_sha256, run.input_sha256, to_json(run.outputs),
+                            static_cast<int>(run.state.code)};
+  return sha256(dumped(sealed, -1));
+}
+
+RunStatus read_status(const std::string& path) {
+  const ordered_json json = detail::read_json_file(path);
+  RunStatus run;
+  try {
+    const ordered_json& records = json.at("records");
+    run.input_sha256 = json.at("input_sha256").get<std::map<std::string, std::string>>();
+    run.outputs = marks_of(json.at("outputs"));
+    run.state.records = {count_of(records.at("read")), count_of(records.at("refused")),
+                         count_of(records.at("not_selected")), count_of(records.at("passed_on"))};
+    run.state.code = static_cast<ExitCode>(count_of(json.at("exit_code")));
+    run.run_sha256 = json.value("run_sha256", "");
+  } catch (const ordered_json::exception& error) {
+    Issue issue;
+    issue.code = Code::E202;
+    issue.sentence = "is not a status that oriel wrote: " + reason_of(error);
+    issue.place.file = path;
+    throw InputError(std::move(issue));
+  }
+  return run;
 }
 
 }  // namespace oriel::cli

@@ -48,12 +48,23 @@ struct RunStatus {
   std::vector<std::string> inputs{};
   std::string rules_sha256{};  ///< empty without rules
   std::string config_sha256{};
-  std::string command_sha256{};  ///< empty without --resume
   /// By name, of inputs that were read to their end.
   std::map<std::string, std::string> input_sha256{};
   FileMarks outputs{};
   RunState state{};
+  std::string run_sha256{};  ///< empty of a run that cannot be resumed
 };
+
+inline constexpr const char* kStatusEnding = ".status.json";
+
+/// The SHA-256 of a command and of what its status says it read, wrote and ended with, so that a
+/// status that was changed is that of no run.
+std::string run_sha256(const RunStatus& run, std::string_view command_sha256);
+
+/// Reads STEM.status.json as far as other runs use it: hashes and marks of the files, the records,
+/// the exit code and run_sha256. Throws InputError: what read_json_file says, E202 if oriel did not
+/// write it.
+RunStatus read_status(const std::string& path);
 
 /// Writes what a command has set aside, so that nothing is lost: `STEM.quarantine.jsonl` has one
 /// line for every record that failed, with the line of a CityJSONSeq as it was read, and

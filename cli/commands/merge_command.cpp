@@ -1,4 +1,4 @@
-#include "cli/batch/resume.h"
+#include "cli/batch/status.h"
 #include "cli/commands/commands.h"
 #include "cli/output/named_files.h"
 #include "cli/streams/shards.h"
@@ -6,6 +6,8 @@
 #include "cli/terminal/logging.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/io/cityjson/id_set.h"
+#include "kernel/io/cityjson/stream_header.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/files/partial_files.h"
 
@@ -23,7 +25,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace oriel::cli {
 
@@ -43,36 +44,32 @@ std::string name_of(const std::string& file) {
   return name.substr(0, name.find('.'));
 }
 
-using nlohmann::ordered_json;
-
 /// What a stage made of what.
 struct ProcessingStep {
   std::vector<std::string> inputs;  ///< hashes
   std::uint64_t left_out = 0;       ///< records
 };
 
-/// The steps that a status file names, by the hash of their output; none if it cannot be read.
+/// The steps that a status file names, by the hash of their output; none if there is no such file.
+/// Throws as read_status.
 std::multimap<std::string, ProcessingStep> steps_of(const fs::path& path) {
   std::multimap<std::string, ProcessingStep> steps;
-  std::ifstream file(path, std::ios::binary);
-  const ordered_json status = ordered_json::parse(file, nullptr, false);
-  if (!status.is_object() || !status.contains("outputs")) return steps;
+  if (!fs::exists(path)) return steps;
+  const RunStatus status = read_status(path.string());
   ProcessingStep step;
-  for (const auto& [name, sha256] : status.at("input_sha256").items())
-    step.inputs.push_back(sha256);
-  const ordered_json& records = status.at("records");
-  step.left_out =
-      records.at("refused").get<std::uint64_t>() + records.at("not_selected").get<std::uint64_t>();
-  for (const auto& [name, mark] : marks_of(status.at("outputs"))) steps.emplace(mark.sha256, step);
+  for (const auto& [name, sha256] : status.input_sha256) step.inputs.push_back(sha256);
+  step.left_out = status.state.records.refused + status.state.records.not_selected;
+  for (const auto& [name, mark] : status.outputs) steps.emplace(mark.sha256, step);
   return steps;
 }
 
 /// Nothing if `file`, whose bytes are `mark`, was made of the whole shard: by the hashes in
 /// NAME.status.json next to it (the file is its output, its input is the shard) or over several
 /// such files in `through`, and as many lines as the shard has but those that a stage refused or
-/// did not select. Without a status file: if it has as many lines as the shard. Else an error E118.
+/// did not select. Without a status file: if it has as many lines as the shard. Where nothing is
+/// left out, `ids_sha256` is that of the shard. Else an error E118. Throws as read_status.
 std::optional<Issue> check_provenance(const Shard& shard, const std::string& file,
-                                      const FileMark& mark,
+                                      const FileMark& mark, const std::string& ids_sha256,
                                       const std::vector<std::string>& through) {
   const std::string status = shard.name + ".status.json";
   const fs::path status_file = fs::path(file).parent_path() / status;
@@ -97,6 +94,9 @@ std::optional<Issue> check_provenance(const Shard& shard, const std::string& fil
       steps.erase(step);  // a stage may change nothing
     }
   }
+  if (mark.lines == shard.features + 1 && ids_sha256 != shard.ids_sha256)
+    return shard_issue(
+        file, fmt::format("has other features than shard {}, or another order", shard.name));
   if (mark.lines == expected) return std::nullopt;
   return shard_issue(file, fmt::format("has {}; shard {} has {}, of which {} left out",
                                        counted(mark.lines, "line"), shard.name, shard.features + 1,
@@ -121,7 +121,11 @@ class Merger {
     find_files();
     if (has_errors_) return ExitCode::input;
     OutputFile out(arguments_.out);
-    for (const Shard& shard : list_.shards) append(shard, file_of_.at(shard.name), out);
+    for (const Shard& shard : list_.shards) try {
+        append(shard, file_of_.at(shard.name), out);
+      } catch (const InputError& error) {
+        tell(error.issue());
+      }
     if (has_errors_) return ExitCode::input;
     out.commit();
     run_log().info("merged {} of {}", counted_of(features_, expected_, "feature"),
@@ -158,13 +162,16 @@ class Merger {
       return tell(issue);
     }
     FileMark mark;
-    Sha256 hash;
+    Sha256 hash, ids;
     for (std::string line; std::getline(file, line);) {
       if (file.eof()) return tell(shard_issue(path, "ends within a line"));
       line += '\n';
       hash.add(line);
       if (mark.lines++ > 0 || is_first_) out.append(line);
-      if (mark.lines > 1) continue;
+      if (mark.lines > 1) {
+        add_feature(feature_id(line), path, mark.lines, ids);
+        continue;
+      }
       is_first_ = false;
       if (const auto issue = headers_.check(line, path)) return tell(*issue);
     }
@@ -172,13 +179,25 @@ class Merger {
     mark.sha256 = hash.digest();
     expected_ += shard.features;
     features_ += mark.lines - std::min<std::uint64_t>(mark.lines, 1);
-    if (const auto issue = check_provenance(shard, path, mark, arguments_.through)) tell(*issue);
+    if (const auto issue = check_provenance(shard, path, mark, ids.digest(), arguments_.through))
+      tell(*issue);
+  }
+
+  void add_feature(const std::string& id, const std::string& path, std::uint64_t line,
+                   Sha256& ids) {
+    ids.add(id + '\n');
+    if (id.empty() || ids_.insert(id)) return;
+    Issue issue = building_issue(Severity::error, Code::E207, id, "an earlier line has this id");
+    issue.place.file = path;
+    issue.place.line = static_cast<int>(line);
+    tell(issue);
   }
 
   const MergeArguments& arguments_;
   ShardList list_;
   Report report_;
   CommonHeader headers_;
+  detail::IdSet ids_;
   std::map<std::string, std::string> file_of_;
   std::uint64_t features_ = 0, expected_ = 0;
   bool is_first_ = true, has_errors_ = false;

@@ -1,5 +1,9 @@
 #include "cli/streams/shards.h"
 
+#include "cli/batch/resume.h"
+#include "kernel/io/cityjson/stream_header.h"
+#include "kernel/io/json/json_check.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -7,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace oriel::cli {
@@ -21,27 +24,23 @@ std::string ShardList::json() const {
     list.push_back({{"name", shard.name},
                     {"features", shard.features},
                     {"bytes", shard.bytes},
-                    {"sha256", shard.sha256}});
+                    {"sha256", shard.sha256},
+                    {"ids_sha256", shard.ids_sha256}});
     features += shard.features;
   }
   return ordered_json{{"features", features}, {"shards", list}}.dump(2) + '\n';
 }
 
 ShardList ShardList::load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    Issue issue = shard_issue(path, "cannot be read: " + std::generic_category().message(errno));
-    issue.code = Code::E101;
-    throw InputError(std::move(issue));
-  }
   ShardList list;
+  const ordered_json json = detail::read_json_file(path);
   try {
-    const ordered_json json = ordered_json::parse(file);
     for (const auto& shard : json.at("shards"))
-      list.shards.push_back(
-          {shard.at("name"), shard.at("features"), shard.at("bytes"), shard.at("sha256")});
+      list.shards.push_back({shard.at("name"), count_of(shard.at("features")),
+                             count_of(shard.at("bytes")), shard.at("sha256"),
+                             shard.at("ids_sha256")});
   } catch (const ordered_json::exception& error) {
-    throw InputError(shard_issue(path, fmt::format("is not a list of shards: {}", error.what())));
+    throw InputError(shard_issue(path, "is not a list of shards: " + reason_of(error)));
   }
   return list;
 }
@@ -74,7 +73,7 @@ void ShardFile::fail() const {
 void ShardFile::append(std::string_view line) {
   buffer_ += line;
   hash_.add(line);
-  ++lines_;
+  if (lines_++ > 0) ids_.add(feature_id(line) + '\n');
 }
 
 void ShardFile::flush() {
@@ -92,7 +91,7 @@ Shard ShardFile::commit() {
   flush();
   if (std::rename(partial().c_str(), path_.c_str()) != 0) fail();
   is_begun_ = false;
-  return {name_, lines_ - 1, hash_.bytes(), hash_.digest()};
+  return {name_, lines_ - 1, hash_.bytes(), hash_.digest(), ids_.digest()};
 }
 
 }  // namespace oriel::cli

@@ -16,7 +16,7 @@ struct Shard {
   std::uint64_t features = 0;
   std::uint64_t bytes = 0;
   std::string sha256;
-  bool operator==(const Shard&) const = default;
+  std::string ids_sha256;  ///< SHA-256 of the ids of the features, each with a line end
 };
 
 /// The shards of a stream in their order, as split.json lists them next to their files.
@@ -24,7 +24,7 @@ struct ShardList {
   std::vector<Shard> shards;
 
   [[nodiscard]] std::string json() const;
-  /// Throws InputError: E101 the file cannot be read, E118 it is no list of shards.
+  /// Throws InputError: what read_json_file says, E118 it is no list of shards.
   static ShardList load(const std::string& path);
 };
 
@@ -58,7 +58,7 @@ class ShardFile {
   std::string buffer_;
   bool is_begun_ = false;
   std::uint64_t lines_ = 0;
-  Sha256 hash_;
+  Sha256 hash_, ids_;
 };
 
 }  // namespace oriel::cli

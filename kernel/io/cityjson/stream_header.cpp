@@ -36,6 +36,11 @@ std::string stream_header_facts(std::string_view header) {
   return facts_of(RawNode(header), {"version", "transform"}).dump();
 }
 
+std::string feature_id(std::string_view line) {
+  if (!RawNode::is_object(line)) return {};
+  return detail::decoded(RawNode(line).value_of("id"));
+}
+
 std::string file_facts(std::string_view header) {
   const RawNode root(header);
   json facts = facts_of(root, {"version"});

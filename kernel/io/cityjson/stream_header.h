@@ -17,6 +17,9 @@ std::string stream_header_facts(std::string_view header);
 /// a hash of the geometry templates if there are any.
 std::string file_facts(std::string_view header);
 
+/// The id of a feature as the line of a CityJSONSeq has it; empty without one.
+std::string feature_id(std::string_view line);
+
 /// Where the features of a CityJSONSeq stand.
 class FeaturePlace {
  public:

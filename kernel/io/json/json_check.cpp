@@ -1,5 +1,6 @@
 #include "kernel/io/json/json_check.h"
 
+#include "kernel/io/files/input.h"
 #include "kernel/io/json/raw_json.h"
 
 #include <algorithm>
@@ -164,6 +165,13 @@ std::optional<nlohmann::json> parse_slowly(const TextName& name, std::string_vie
   if (!issue) return nlohmann::json::parse(text);
   issues.push_back(std::move(*issue));
   return std::nullopt;
+}
+
+nlohmann::json read_json_file(const std::string& path) {
+  std::vector<Issue> issues;
+  auto json = parse_slowly({path}, Input(path).read_all(), issues);
+  if (!json) throw InputError(std::move(issues[0]));
+  return std::move(*json);
 }
 
 std::string decoded(std::string_view raw) {

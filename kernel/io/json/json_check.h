@@ -3,6 +3,7 @@
 #include "kernel/io/json/text.h"
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,5 +25,9 @@ std::optional<Issue> find_json_error(const TextName& name, std::string_view text
 /// range, each with its place.
 std::optional<nlohmann::json> parse_slowly(const TextName& name, std::string_view text,
                                            std::vector<Issue>& issues);
+
+/// Reads a small file of JSON. Throws InputError E101 if it cannot be read, and what parse_slowly
+/// finds.
+nlohmann::json read_json_file(const std::string& path);
 
 }  // namespace oriel::detail

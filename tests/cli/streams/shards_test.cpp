@@ -1,5 +1,6 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
+#include "tests/support/shared.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 using namespace oriel::test;
@@ -147,6 +149,87 @@ TEST_SUITE("cli") {
     CHECK(put(shorter).says("has 10 lines; shard 000001 has 11"));
     CHECK(!std::filesystem::exists(out));
     CHECK(put(text).exit == 0);
+  }
+
+  TEST_CASE("merge without status files refuses the copy of another shard") {
+    const Folder folder;
+    const std::string list =
+        split(folder, folder.write("in.city.jsonl", city()), {"--count", "10"});
+    const std::string out = folder / "out.city.jsonl", stem = folder / "shards/00000";
+    const auto merged = [&] {
+      Names files;
+      for (const char* number : {"0", "1", "2", "3"})
+        files.push_back(stem + number + ".city.jsonl");
+      return merge(files, list, out);
+    };
+    CHECK(merged().exit == 0);
+    const std::string second = bytes_of(stem + "1.city.jsonl");
+    std::filesystem::copy_file(stem + "0.city.jsonl", stem + "1.city.jsonl",
+                               std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::remove(out);
+    const Outcome twice = merged();
+    CHECK(twice.exit == 5);
+    CHECK(twice.says("shards/000001.city.jsonl: E118 has other features than shard 000001"));
+    CHECK(twice.says("shards/000001.city.jsonl:2: cube-0: E207 an earlier line has this id"));
+    // The same features in another order are not the shard either.
+    auto lines = lines_of(second);
+    std::swap(lines[1], lines[2]);
+    folder.write("shards/000001.city.jsonl", fmt::format("{}\n", fmt::join(lines, "\n")));
+    CHECK(merged().says("E118 has other features than shard 000001, or another order"));
+    CHECK_FALSE(std::filesystem::exists(out));
+    folder.write("shards/000001.city.jsonl", second);
+    CHECK(merged().exit == 0);
+    folder.write("shards/split.json",
+                 replaced(bytes_of(list), "\"features\": 10", "\"features\": -1"));
+    CHECK(merged().says("split.json: E118 is not a list of shards: a count is -1"));
+  }
+
+  TEST_CASE("merge names a status file that is damaged whatever is damaged in it") {
+    const Folder folder;
+    const std::string list =
+        split(folder, folder.write("in.city.jsonl", city()), {"--count", "40"});
+    const Names files = label(folder, shard_names(list), "1");
+    const std::string out = folder / "out.city.jsonl", name = "done-000000/000000.status.json";
+    const std::string text = bytes_of(folder / name);
+    const json status = json::parse(text);
+    std::vector<std::string> damaged{"",         "[]",         "5", text.substr(0, text.size() / 2),
+                                     text + "}", "\xff" + text};
+    std::set<std::string> places;
+    const json members = status.flatten();
+    for (const auto& [pointer, value] : members.items())
+      for (json::json_pointer at(pointer); !at.empty(); at.pop_back())
+        if (!pointer.starts_with("/features")) places.insert(at.to_string());
+    for (const std::string& place : places)
+      for (const json& other : {json(), json(-1), json{{"a", 0.5}}}) {
+        json changed = status;
+        changed[json::json_pointer(place)] = other;
+        damaged.push_back(changed.dump());
+      }
+    int named = 0;
+    for (const std::string& bytes : damaged) {
+      CAPTURE(bytes);
+      folder.write(name, bytes);
+      const Outcome outcome = merge(files, list, out);
+      // What merge does not read may be anything.
+      CHECK((outcome.exit == 0 || outcome.exit == 5));
+      CHECK_FALSE(outcome.says("E901"));
+      named += outcome.says("000000.status.json") ? 1 : 0;
+    }
+    CHECK(named > 30);
+  }
+
+  TEST_CASE("merge names the damaged status file of the shared cases") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const std::string list =
+        split(folder, folder.write("in.city.jsonl", city()), {"--count", "40"});
+    const Names files = label(folder, shard_names(list), "1");
+    folder.write("done-000000/000000.status.json",
+                 bytes_of(shared / "data/cases/bounds/merge-e901.status.json"));
+    const Outcome outcome = merge(files, list, folder / "out.city.jsonl");
+    CHECK(outcome.exit == 5);
+    CHECK(outcome.says(
+        "000000.status.json: E202 is not a status that oriel wrote: key 'input_sha256' not found"));
   }
 
   TEST_CASE("merge follows the hashes through the stages") {
