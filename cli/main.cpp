@@ -6,6 +6,7 @@
 #include "cli/terminal/usage_advice.h"
 #include "cli/version/version_text.h"
 #include "kernel/base/issue.h"
+#include "kernel/base/own_fault.h"
 #include "kernel/base/text/printable.h"
 #include "kernel/io/files/output_file.h"
 
@@ -138,10 +139,7 @@ int guarded_main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& fault) {
-    oriel::Issue issue;
-    issue.code = oriel::Code::E901;
-    issue.sentence = std::string("a fault of oriel's own: ") + fault.what();
-    report.add(issue);
+    report.add(oriel::own_fault(fault));
     return exit_with(ExitCode::internal);
   }
 }

@@ -1,11 +1,11 @@
 #include "cli/batch/record_worker.h"
 
+#include "kernel/base/own_fault.h"
 #include "oriel/label.h"
 #include "oriel/segment.h"
 
 #include <algorithm>
 #include <exception>
-#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,20 +51,21 @@ void RecordWorker::work_on(WorkItem& item) const {
 }
 
 /// As if none of its buildings had come to the end.
-void RecordWorker::set_all_aside(WorkItem& item, Code code, const std::string& sentence) {
+void RecordWorker::set_all_aside(WorkItem& item, Issue why) {
   const std::vector<Building>& buildings = item.record()->document.value->buildings;
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     BuildingOutcome& outcome = item.outcome.buildings[i];
     if (outcome.is_passed_over) continue;
     item.results[i] = {};
-    if (std::exchange(outcome.is_done, false))
-      outcome.issues.push_back(building_issue(Severity::error, code, buildings[i].id, sentence));
+    why.place.building = buildings[i].id;
+    if (std::exchange(outcome.is_done, false)) outcome.issues.push_back(why);
     outcome.is_open = outcome.has_features = false;
     outcome.labels.clear();
   }
 }
 
-/// A fault of ours costs the record's buildings; the record is written unchanged.
+/// A fault of ours, or memory that is used up, costs the record's buildings; the record is written
+/// unchanged.
 void RecordWorker::make_product(WorkItem& item) const {
   const Record& record = *item.record();
   const auto make = [&] {
@@ -72,12 +73,10 @@ void RecordWorker::make_product(WorkItem& item) const {
   };
   try {
     item.outcome.product = make();
-  } catch (const std::bad_alloc&) {
-    throw;  // no fault of the record's
   } catch (const OutputError&) {
-    throw;  // nor is a scratch file that fails
+    throw;  // a scratch file that fails is no fault of the record's
   } catch (const std::exception& fault) {
-    set_all_aside(item, Code::E901, fmt::format("a fault of oriel's own: {}", fault.what()));
+    set_all_aside(item, own_fault(fault));
     item.outcome.product = make();
   }
   item.results = {};

@@ -28,7 +28,7 @@ class RecordWorker {
   [[nodiscard]] PipelineResult result_of(const Building& building, Timings& timings) const;
   [[nodiscard]] BuildingOutcome outcome_of(const PipelineResult& result) const;
   void make_product(WorkItem& item) const;
-  static void set_all_aside(WorkItem& item, Code code, const std::string& sentence);
+  static void set_all_aside(WorkItem& item, Issue why);
 
   const RunOptions& options_;
   const RuleBase* rules_;

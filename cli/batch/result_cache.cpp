@@ -8,6 +8,7 @@
 #include <charconv>
 #include <fcntl.h>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 #include <unistd.h>
@@ -68,6 +69,8 @@ ResultCache::ResultCache(const std::string& status, const std::string& stem,
     : new_notes_(stem + kNotesEnding) {
   try {
     load(status, recipe_sha256);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& why) {
     fault_.emplace();
     fault_->severity = Severity::warning;

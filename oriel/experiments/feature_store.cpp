@@ -1,5 +1,6 @@
 #include "oriel/experiments/feature_store.h"
 
+#include "kernel/base/own_fault.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/io/files/input.h"
@@ -119,7 +120,7 @@ class FeatureMaker {
   /// What rests on a fault of oriel's own (memory that was short, say) is neither kept nor
   /// measured.
   static void refuse_own_fault(const BuildingAtWork& done) {
-    if (done.fault->code != Code::E901) return;
+    if (!is_own_fault(*done.fault)) return;
     Issue issue = *done.fault;
     issue.place.building = done.building.id;
     throw InputError(std::move(issue));

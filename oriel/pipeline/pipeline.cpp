@@ -2,6 +2,7 @@
 
 #include "interpret/labelling/interpret.h"
 #include "kernel/base/index.h"
+#include "kernel/base/own_fault.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/model/canonical_order.h"
 #include "kernel/segment/flush/imprints.h"
@@ -312,9 +313,8 @@ PipelineResult make_solid(const CanonicalOrder& order, const Tolerances& toleran
 PipelineResult go_on(PipelineResult out, const Building& building, const CanonicalOrder& order,
                      const RuleBase* rules, const Tolerances& tolerances,
                      const LabelOptions& options) {
-  const auto is_ours = [](const Issue& issue) { return issue.code == Code::E901; };
   look_around(building, options, out);
-  if (std::ranges::none_of(out.issues, is_ours)) {
+  if (std::ranges::none_of(out.issues, is_own_fault)) {
     renumber(order.from_reading, out);
     try {
       if (options.ignores_semantics)
@@ -336,8 +336,9 @@ PipelineResult go_on(PipelineResult out, const Building& building, const Canonic
 /// A scratch file that fails is none, and ends the run.
 Issue own_fault(const Building& building, const std::exception& fault) {
   if (dynamic_cast<const OutputError*>(&fault) != nullptr) throw;
-  return building_issue(Severity::error, Code::E901, building.id,
-                        fmt::format("a fault of oriel's own: {}", fault.what()));
+  Issue issue = own_fault(fault);
+  issue.place.building = building.id;
+  return issue;
 }
 
 std::optional<Issue> no_body(const Building& building, const PipelineOptions& options) {

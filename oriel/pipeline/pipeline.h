@@ -66,7 +66,8 @@ void describe_all_surfaces(const Building& building, const Tolerances& tolerance
 void name_surfaces(const Building& building, const Tolerances& tolerances, const RuleBase& rules,
                    const LabelOptions& options, PipelineResult& result);
 
-/// E901. Of an OutputError, which is no fault of the building, none: it is thrown on.
+/// Reports an exception as own_fault does. An OutputError, which is no fault of the building, is
+/// thrown on.
 Issue own_fault(const Building& building, const std::exception& fault);
 
 }  // namespace oriel

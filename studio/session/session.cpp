@@ -1,5 +1,6 @@
 #include "studio/session/session.h"
 
+#include "kernel/base/own_fault.h"
 #include "studio/lsp/editing_json.h"
 #include "studio/session/desk.h"
 
@@ -44,8 +45,8 @@ Reply reply_of(const RefusedRequest& refused) {
 }
 
 Reply fault_reply(const std::exception& fault) {
-  return error_reply(500, fmt::format("a fault of oriel's own: {}", fault.what()),
-                     to_string(Code::E901));
+  const Issue issue = own_fault(fault);
+  return error_reply(500, issue.sentence, to_string(issue.code));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "kernel/io/levels/written_grid.h"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -173,6 +174,8 @@ Checked<std::vector<LevelState>> read_level(std::string_view text, const std::st
       building = id;
       states.push_back(reader.state(id));
     }
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& fault) {
     std::string sentence = "is not a level of a series: ";
     sentence += fault.what();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -74,6 +75,8 @@ class AreaReader {
   static void within(const std::string& where, Act act) {
     try {
       act();
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& fault) {
       throw std::runtime_error(where + ": " + fault.what());
     }
@@ -203,6 +206,8 @@ std::vector<GroundArea> read_ground_areas(const std::string& file) {
       reader.read_cityjson(*root);
     else
       reader.read_geojson(*root);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& fault) {
     refuse_ground(file, fmt::format("is no GeoJSON and no CityJSON with ground to be kept free: {}",
                                     fault.what()));

@@ -5,6 +5,7 @@
 #include "kernel/io/records/log_seal.h"
 
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -176,6 +177,8 @@ SeriesOperation operation_of(const ordered_json& json) {
 SeriesOperation operation_in(std::string_view line, const detail::TextName& name) {
   try {
     return operation_of(ordered_json::parse(line));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& fault) {
     std::string sentence = "is not an operation of a series: ";
     sentence += fault.what();

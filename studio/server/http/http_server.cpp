@@ -3,6 +3,7 @@
 #include "kernel/base/code.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/log.h"
+#include "kernel/base/own_fault.h"
 #include "kernel/model/version.h"
 #include "studio/server/http/http_module.h"
 #include "studio/server/page_files.h"
@@ -11,7 +12,6 @@
 #include <array>
 #include <dlfcn.h>
 #include <filesystem>
-#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -82,12 +82,11 @@ class StudioSite final : public HttpSite {
   [[nodiscard]] Reply fault(const std::exception_ptr& fault) const override {
     try {
       std::rethrow_exception(fault);
-    } catch (const std::bad_alloc&) {
-      return error_reply(503, "there is not enough memory for this", to_string(Code::E507));
     } catch (const std::exception& exception) {
+      const Issue issue = own_fault(exception);
       log("studio").write(LogLevel::error, exception.what());
-      return error_reply(500, std::string("a fault of oriel's own: ") + exception.what(),
-                         to_string(Code::E901));
+      return error_reply(issue.code == Code::E507 ? 503 : 500, issue.sentence,
+                         to_string(issue.code));
     }
   }
 

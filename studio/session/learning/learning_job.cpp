@@ -1,5 +1,6 @@
 #include "studio/session/learning/learning_job.h"
 
+#include "kernel/base/own_fault.h"
 #include "kernel/base/text/counted.h"
 #include "studio/session/labels/pack_answer.h"
 
@@ -128,10 +129,7 @@ void LearningJob::learn(LearningTask task) {
     const std::lock_guard lock(mutex_);
     state_ = State::idle;
   } catch (const std::exception& fault) {
-    Issue issue;
-    issue.code = Code::E901;
-    issue.sentence = fmt::format("a fault of oriel's own: {}", fault.what());
-    fail({issue});
+    fail({own_fault(fault)});
   }
 }
 

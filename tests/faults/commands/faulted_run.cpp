@@ -48,7 +48,7 @@ bool is_about_the_run(const std::string& name) {
 /// A building that a fault cost stands in the outputs as it came, and its features nowhere.
 bool is_building_rejected(const Outcome& outcome) {
   constexpr int kSetAside = 3;
-  return outcome.exit == kSetAside && (outcome.says("E901") || outcome.says("E123"));
+  return outcome.exit == kSetAside && (outcome.says("E507") || outcome.says("E123"));
 }
 
 /// A GLB says in its head how long it is.
