@@ -76,6 +76,8 @@ class ProducingCommand : public BatchCommand {
   [[nodiscard]] virtual std::string recipe() const = 0;
   /// What was taken needs nothing but its outputs, so that the run can go on after any record.
   [[nodiscard]] virtual bool is_streaming() const = 0;
+  /// All that it writes goes to files, so that a run that was killed can go on.
+  [[nodiscard]] virtual bool writes_files() const = 0;
   /// All inputs were done when an earlier run was killed: outputs of all of them together, which
   /// `begin` opens otherwise, are to be opened for `commit`.
   virtual void reopen() = 0;

@@ -5,6 +5,7 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/log.h"
+#include "kernel/base/own_fault.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
@@ -92,6 +93,8 @@ ExitCode BatchRunner::run_all() {
                                          std::pair("--reuse", !options_.reuse.empty())})
     if (producer_ == nullptr && is_given)
       throw CLI::ValidationError(option, "works only with commands that write record by record");
+  if (options_.is_resumable && (producer_ == nullptr || !producer_->writes_files()))
+    throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features, --table");
   NamedFiles files;
   files.add(options_);
   command_->name_files(files);
@@ -149,15 +152,9 @@ int BatchRunner::partly_featureless() const {
 bool BatchRunner::begin_status() {
   if (options_.status_stem.empty()) return true;
   PartialFiles::watch();
-  if (options_.is_resumable) {
-    resume_.emplace(options_, recipe_sha256());
-    if (const auto finished = resume_->finished()) {
-      was_done_ = true;
-      state_.code = *finished;
-      run_log().info("there is nothing left to do: the run was complete");
-      return false;
-    }
-  }
+  if (producer_ != nullptr && producer_->writes_files() && options_.repeat == 1 &&
+      !options_.is_forced && !begin_journal())
+    return false;
   if (!options_.reuse.empty()) {
     cache_.emplace(options_.reuse, options_.status_stem, recipe_sha256());
     if (cache_->fault()) report_.add(*cache_->fault());
@@ -169,6 +166,20 @@ bool BatchRunner::begin_status() {
   } catch (const ordered_json::exception&) {
     throw damaged_journal(resume_->path());
   }
+  return true;
+}
+
+/// False if there is nothing to do.
+bool BatchRunner::begin_journal() {
+  resume_.emplace(options_, recipe_sha256());
+  if (!options_.is_resumable || resume_->state()) return true;
+  if (const auto finished = resume_->finished()) {
+    was_done_ = true;
+    state_.code = *finished;
+    run_log().info("there is nothing left to do: the run was complete");
+    return false;
+  }
+  run_log().info("there is nothing to resume from: the run begins with the first record");
   return true;
 }
 
@@ -390,7 +401,11 @@ void BatchRunner::note_found_ids(const Checked<Document>& document) {
 void BatchRunner::settle_product(WorkItem& item, const Document& document) {
   Product& product = item.outcome.product;
   reused_ += item.is_reused ? 1 : 0;
-  if (cache_ && !item.source_sha256.empty() && item.lost.empty())
+  const auto is_lasting = [](const BuildingOutcome& building) {
+    return std::ranges::none_of(building.issues, is_own_fault);
+  };
+  if (cache_ && !item.source_sha256.empty() && item.lost.empty() &&
+      std::ranges::all_of(item.outcome.buildings, is_lasting))
     cache_->add(item.source_sha256, producer_->places(), item.outcome);
   for (const Issue& issue : product.issues) {
     if (issue.severity == Severity::error)

@@ -33,7 +33,7 @@ class BatchRunner {
   ExitCode run(VisitingCommand& command);
   ExitCode run(ProducingCommand& command);
 
-  /// With --resume: the same command did all this before. The command was given nothing.
+  /// The same command did all this before (--resume). The command was given nothing.
   [[nodiscard]] bool was_done() const { return was_done_; }
 
   /// Other runs are for the clock: what they write goes to nowhere.
@@ -58,6 +58,7 @@ class BatchRunner {
  private:
   ExitCode run_all();
   [[nodiscard]] bool begin_status();
+  [[nodiscard]] bool begin_journal();
   [[nodiscard]] std::string recipe_sha256() const;
   void run_inputs();
   void run_in_threads(InputReader& reader);

@@ -3,6 +3,8 @@
 #include "cli/batch/status.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"
+#include "kernel/io/files/file_lock.h"
+#include "kernel/io/files/output_file.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -28,21 +30,14 @@ constexpr std::uint64_t kWhole = std::numeric_limits<std::uint64_t>::max();
 /// Beyond this the journal is written anew: states that are past are of no use.
 constexpr std::size_t kMostBytes = 1 << 20;
 
-[[noreturn]] void fail(const std::string& path) {
-  Issue issue;
-  issue.code = Code::E601;
-  issue.sentence = "cannot be written: " + std::generic_category().message(errno);
-  issue.place.file = path;
-  throw OutputError(std::move(issue));
-}
-
 std::string line_of(const char* key, const ordered_json& value) {
   ordered_json line = ordered_json::object();
   line[key] = value;
   return line.dump() + '\n';
 }
 
-/// The command line but for -j and what is logged, which change nothing in what is written.
+/// The command line but for --resume, -j and what is logged, which change nothing in what is
+/// written.
 std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string text, word;
@@ -50,7 +45,8 @@ std::string command_line() {
   while (std::getline(file, word, '\0')) {
     const bool has_value = word == "-j" || word == "--jobs" || word == "--log-level";
     if (std::exchange(is_value_next, has_value)) continue;
-    if (word.starts_with("-j") || word.starts_with("--jobs") || word.starts_with("--log-"))
+    if (word == "--resume" || word.starts_with("-j") || word.starts_with("--jobs") ||
+        word.starts_with("--log-"))
       continue;
     text += word + '\0';
   }
@@ -112,7 +108,20 @@ InputError damaged_journal(const std::string& path) {
 }
 
 Journal::~Journal() {
+  if (is_new_) ::unlink(path_.c_str());
   if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool Journal::begin() {
+  descriptor_ = detail::open_locked(path_, O_WRONLY);
+  if (descriptor_ < 0) fail_to_write(path_, errno);
+  is_new_ = std::filesystem::is_empty(path_);
+  return is_new_;
+}
+
+void Journal::clear() {
+  if (::ftruncate(descriptor_, 0) != 0) fail_to_write(path_, errno);
+  is_new_ = true;
 }
 
 std::optional<ordered_json> Journal::load() {
@@ -132,46 +141,43 @@ std::optional<ordered_json> Journal::load() {
   return state;
 }
 
-void Journal::open(bool is_fresh) {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | (is_fresh ? O_TRUNC : O_APPEND);
-  const std::string path = is_fresh ? path_ + ".new" : path_;
-  descriptor_ = ::open(path.c_str(), mode, 0666);
-  if (descriptor_ < 0) fail(path);
-  bytes_ = 0;
-}
-
 void Journal::append(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t count = ::write(descriptor_, text.data() + at, text.size() - at);
-    if (count < 0 && errno != EINTR) fail(path_);
+    if (count < 0 && errno != EINTR) fail_to_write(path_, errno);
     if (count > 0) at += static_cast<std::size_t>(count);
   }
-  bytes_ += text.size();
+  *bytes_ += text.size();
 }
 
-/// The journal takes its place by rename, so that there always is a whole one.
+/// The journal takes its place by rename, so that there always is a whole one. The old one is
+/// locked until the new one is in its place.
 void Journal::compact(const std::string& state) {
-  open(true);
+  const std::string path = path_ + ".new";
+  const int old = std::exchange(descriptor_, detail::open_locked(path, O_WRONLY | O_TRUNC));
+  if (descriptor_ < 0) fail_to_write(path, errno);
+  bytes_ = 0;
   if (!done_.empty()) append(line_of("done", to_json(done_)));
   if (!read_.empty()) append(line_of("read", to_json(read_)));
   append(state);
-  if (std::rename((path_ + ".new").c_str(), path_.c_str()) != 0) fail(path_);
+  if (std::rename(path.c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
+  ::close(old);
+  is_new_ = false;
 }
 
 void Journal::write(const FileMarks& done, const FileMarks& read, const ordered_json& state) {
   const std::string text = line_of("state", state);
   for (const auto& [path, mark] : done) done_[path] = mark;
   for (const auto& [path, mark] : read) read_[path] = mark;
-  if (descriptor_ < 0 || bytes_ > kMostBytes) return compact(text);
+  if (!bytes_ || *bytes_ > kMostBytes) return compact(text);
   if (!done.empty()) append(line_of("done", to_json(done)));
   if (!read.empty()) append(line_of("read", to_json(read)));
   append(text);
 }
 
 void Journal::remove() {
-  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
   ::unlink(path_.c_str());
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
 }
 
 std::string sha256_of_file(const std::string& path) {
@@ -189,9 +195,14 @@ Resume::Resume(const RunOptions& options, const std::string& settings)
     : options_(options),
       journal_(options.status_stem + ".journal"),
       command_sha256_(sha256(command_line() + settings + program_sha256())) {
+  PartialFiles::go_on();
+  const bool is_new = journal_.begin();
+  if (options.is_resumable) state_ = journal_.load();
+  if (!state_) {
+    if (!is_new) journal_.clear();
+    return;
+  }
   PartialFiles::keep();
-  state_ = journal_.load();
-  if (!state_) return;
   JournalState state;
   try {
     state = journal_state_of(*state_);
@@ -240,6 +251,7 @@ void Resume::note(const InputPosition& position, ordered_json state) {
   state["records"] = position.records;
   state["read_sha256"] = position.sha256;
   state["files"] = to_json(files);
+  PartialFiles::keep();
   journal_.write(PartialFiles::take_done(), std::exchange(read_, {}), state);
 }
 

@@ -24,8 +24,13 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// The last state; nothing if there is no journal. Throws InputError E117 for a line that oriel
-  /// does not write.
+  /// From now on no other process can write it, or resume from it. False if another run has begun
+  /// it. Throws OutputError E601.
+  [[nodiscard]] bool begin();
+  /// Forgets what another run has begun.
+  void clear();
+  /// The last state; nothing if there is none. Throws InputError E117 for a line that oriel does
+  /// not write.
   std::optional<nlohmann::ordered_json> load();
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Outputs that are done so far.
@@ -40,13 +45,13 @@ class Journal {
   void remove();
 
  private:
-  void open(bool is_fresh);
   void append(const std::string& text);
   void compact(const std::string& state);
 
   std::string path_;
   int descriptor_ = -1;
-  std::size_t bytes_ = 0;
+  bool is_new_ = false;               ///< nothing was ever written to it
+  std::optional<std::size_t> bytes_;  ///< written by this run; nothing before the first
   FileMarks done_, read_;
 };
 
@@ -80,15 +85,15 @@ JournalState journal_state_of(const nlohmann::ordered_json& json);
 /// E117 for a journal that was changed since oriel wrote it.
 InputError damaged_journal(const std::string& path);
 
-/// A run of a command that may be killed at any moment and resumes after its last whole record when
-/// the same command is given again. What it needs to know stands in STEM.journal; outputs grow as
-/// PATH.partial and come to their place by rename.
+/// A run of a command that may be killed at any moment, after which the same command with --resume
+/// goes on after its last whole record. What it needs to know stands in STEM.journal; outputs grow
+/// as PATH.partial and come to their place by rename.
 class Resume {
  public:
   /// `settings` (hashes of all that a result depends on besides input and program) and the command
-  /// line say whether it is the same run. Throws
-  /// InputError E117 if the journal is that of another command or damaged, or the outputs that it
-  /// names are not there.
+  /// line say whether it is the same run. Without --resume it begins anew. Throws InputError E117
+  /// if the journal is that of another command or damaged, or the outputs that it names are not
+  /// there.
   Resume(const RunOptions& options, const std::string& settings);
 
   /// What went before: empty for a run that begins.

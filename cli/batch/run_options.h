@@ -82,7 +82,7 @@ struct RunOptions {
   std::string progress;
   /// STEM.status.json of an earlier run, from which results are taken; empty: of none.
   std::string reuse;
-  /// The run may be killed and resumes when the command is given again.
+  /// The command goes on where it was killed.
   bool is_resumable = false;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
   std::string allowed_bad = "0";

@@ -191,6 +191,9 @@ class Generaliser final : public ProducingCommand {
                        changes_.has_metrics(), outputs_.recipe());
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
+  [[nodiscard]] bool writes_files() const override {
+    return outputs_.has_any() && !outputs_.writes_stdout();
+  }
   std::map<std::string, int>* counts() override { return &counts_; }
 
   [[nodiscard]] bool has_groups() const { return groups_ != nullptr; }

@@ -127,8 +127,6 @@ class Labeller final : public ProducingCommand {
                                  "input: -o X.city.json, X.city.jsonl");
     if (tables_.takes_stdout() && arguments.out == "-")
       throw CLI::ValidationError("--table", "stdout takes the buildings (-o -): write NAME=FILE");
-    if (tables_.takes_stdout() && arguments.is_resumable)
-      throw CLI::ValidationError("--resume", "needs tables that are files: --table NAME=FILE");
     if (tables_.has_any() && !tables_.is_of_lines() && !arguments.reuse.empty())
       throw CLI::ValidationError("--reuse", "needs tables that are files in .csv or .jsonl");
   }
@@ -177,6 +175,10 @@ class Labeller final : public ProducingCommand {
                        arguments_.energy.extension);
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
+  [[nodiscard]] bool writes_files() const override {
+    return (outputs_.has_any() || tables_.has_any()) && !outputs_.writes_stdout() &&
+           !tables_.takes_stdout();
+  }
 
   [[nodiscard]] std::vector<Issue> take_issues() { return outputs_.take_issues(); }
   [[nodiscard]] std::optional<Issue> lacking_columns() const { return outputs_.lacking_columns(); }

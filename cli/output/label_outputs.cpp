@@ -50,11 +50,9 @@ LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& 
     throw CLI::ValidationError("--closed-installations",
                                "needs an output that is CityGML: -o X.gml, or --to citygml2 or "
                                "citygml3");
-  if (!arguments.reuse.empty() && (recipe().empty() || (sink_ && sink_->is_stdout())))
+  if (!arguments.reuse.empty() && (recipe().empty() || writes_stdout()))
     throw CLI::ValidationError(
         "--reuse", "needs outputs that are files: -o in .city.jsonl, --features in .csv or .jsonl");
-  if (arguments.is_resumable && (!has_any() || (sink_ && sink_->is_stdout())))
-    throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
 }
 
 std::vector<Issue> LabelOutputs::take_issues() {

@@ -48,6 +48,7 @@ class LabelOutputs {
   LabelOutputs(const LabellingArguments& arguments, const RuleBase& rules);
 
   [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
+  [[nodiscard]] bool writes_stdout() const { return sink_ && sink_->is_stdout(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
 
   /// OutputSink::is_cityjson().

@@ -122,6 +122,7 @@ class Tiler final : public ProducingCommand {
         tileset.has_gzip);
   }
   [[nodiscard]] bool is_streaming() const override { return true; }
+  [[nodiscard]] bool writes_files() const override { return true; }
 
   /// What was written; nothing if there was no building.
   [[nodiscard]] const std::optional<TilesetFiles>& written() const { return written_; }

@@ -2,6 +2,7 @@
 
 #include "cli/batch/resume.h"
 #include "kernel/io/cityjson/stream_header.h"
+#include "kernel/io/files/output_file.h"
 #include "kernel/io/json/json_check.h"
 
 #include <cerrno>
@@ -64,12 +65,6 @@ ShardFile::~ShardFile() {
 
 std::string ShardFile::partial() const { return path_ + ".partial"; }
 
-void ShardFile::fail() const {
-  Issue issue = shard_issue(path_, "cannot be written: " + std::generic_category().message(errno));
-  issue.code = Code::E601;
-  throw OutputError(std::move(issue));
-}
-
 void ShardFile::append(std::string_view line) {
   buffer_ += line;
   hash_.add(line);
@@ -83,13 +78,13 @@ void ShardFile::flush() {
       std::ios::binary | (std::exchange(is_begun_, true) ? std::ios::app : std::ios::trunc));
   file.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   file.close();
-  if (!file) fail();
+  if (!file) fail_to_write(path_, errno);
   buffer_.clear();
 }
 
 Shard ShardFile::commit() {
   flush();
-  if (std::rename(partial().c_str(), path_.c_str()) != 0) fail();
+  if (std::rename(partial().c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
   is_begun_ = false;
   return {name_, lines_ - 1, hash_.bytes(), hash_.digest(), ids_.digest()};
 }

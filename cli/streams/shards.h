@@ -51,7 +51,6 @@ class ShardFile {
   Shard commit();
 
  private:
-  [[noreturn]] void fail() const;
   [[nodiscard]] std::string partial() const;
 
   std::string name_, path_;

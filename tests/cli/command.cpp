@@ -56,7 +56,8 @@ bool has_file(const fs::path& folder, const std::string& part) {
   return std::ranges::any_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
     return name.find(part) != std::string::npos && !name.ends_with(".new") &&
-           !name.ends_with(".partial");
+           !name.ends_with(".partial") &&
+           (!name.ends_with(".journal") || bytes_of(entry.path()).size() > 0);
   });
 }
 

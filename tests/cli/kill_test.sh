@@ -40,7 +40,9 @@ while [ "$killed" -lt "$kills" ]; do
     jobs=$((RANDOM % 2 + 1))
     for attempt in 1 2 3 4; do
       [ "$killed" -lt "$kills" ] || break
-      "${line[@]}" -j "$jobs" 2>>log &
+      call=("${line[@]}")
+      [ "$attempt" -gt 1 ] || unset 'call[-1]'  # nobody knows before that it will be killed
+      "${call[@]}" -j "$jobs" 2>>log &
       process=$!
       wait_ns=$((took_ns * (RANDOM % 1000) / 2500))
       sleep "$((wait_ns / 1000000000)).$(printf %09d $((wait_ns % 1000000000)))"

@@ -79,7 +79,7 @@ Record InputReader::described(Checked<Document> document) {
   record.number = ++records_;
   record.bytes = bytes();
   record.was_done = input_ == start_.input && records_ <= start_.records;
-  if (options_.is_resumable) record.sha256 = reader_->sha256();
+  if (!options_.status_stem.empty()) record.sha256 = reader_->sha256();
   const bool is_stream = reader_->format() == Format::cityjson_seq;
   if (is_stream) record.line = reader_->line();
   // A line of a stream costs that line; a file as a whole, or a stream's header, costs the input.

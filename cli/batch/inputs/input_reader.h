@@ -38,7 +38,7 @@ struct Record {
   bool is_one_of_many = false;
   /// An earlier run has done it.
   bool was_done = false;
-  /// With --resume: of the input up to here.
+  /// With --status: of the input up to here.
   std::string sha256{};
   /// With --reuse, of a record after the header of a stream: the hash of that header.
   std::string header_sha256{};

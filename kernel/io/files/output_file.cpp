@@ -1,6 +1,7 @@
 #include "kernel/io/files/output_file.h"
 
 #include "kernel/base/issue.h"
+#include "kernel/io/files/file_lock.h"
 #include "kernel/io/files/leftovers.h"
 #include "kernel/io/files/partial_files.h"
 #include "kernel/io/json/text.h"
@@ -91,7 +92,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(resol
     if (descriptor_ < 0) fail(errno);
     return;
   }
-  if (PartialFiles::are_kept())
+  detail::remove_leftovers(target_);
+  if (PartialFiles::can_go_on())
     open_partial();
   else
     open_temporary();
@@ -99,7 +101,6 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(resol
 }
 
 void OutputFile::open_temporary() {
-  detail::remove_leftovers(target_);
   for (int i = 0; i < kMaxTries; ++i) {
     const std::string name = detail::temporary_name(target_, i);
     listed_ = list_temporary(name);  // first, as a signal may come at any time
@@ -123,7 +124,7 @@ void OutputFile::open_temporary() {
 
 void OutputFile::open_partial() {
   temporary_ = PartialFiles::name_of(target_);
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = detail::open_locked(temporary_, O_WRONLY);
   if (descriptor_ < 0) {
     temporary_.clear();
     fail(errno);
@@ -141,10 +142,11 @@ OutputFile::~OutputFile() {
   strike_temporary(listed_);
 }
 
-void OutputFile::fail(int reason) {
-  const detail::TextName name{path_ == "-" ? "stdout" : path_, 0};
-  throw OutputError(detail::error_in(
-      name, {Code::E601, "cannot be written: " + std::generic_category().message(reason)}));
+void fail_to_write(const std::string& path, int reason) {
+  const detail::TextName name{path == "-" ? "stdout" : path, 0};
+  const std::string why = reason == EWOULDBLOCK ? "another process is writing it"
+                                                : std::generic_category().message(reason);
+  throw OutputError(detail::error_in(name, {Code::E601, "cannot be written: " + why}));
 }
 
 void OutputFile::append(std::string_view bytes) {

@@ -8,6 +8,10 @@
 
 namespace oriel {
 
+/// Throws OutputError E601: `path` cannot be written for the system's reason, or another process is
+/// writing it (EWOULDBLOCK).
+[[noreturn]] void fail_to_write(const std::string& path, int reason);
+
 /// A file that appears whole or not at all: bytes go to a temporary file beside it, which `commit`
 /// syncs and renames; without `commit` it vanishes. "-" is stdout; it and what is no regular file
 /// (/dev/null, a pipe) are written directly. Where the path is a link, the file it names is
@@ -36,7 +40,7 @@ class OutputFile {
   void open_partial();
   void flush();
   void write(std::string_view bytes);
-  [[noreturn]] void fail(int reason);
+  [[noreturn]] void fail(int reason) { fail_to_write(path_, reason); }
 
   /// As it was given, for messages.
   std::string path_;

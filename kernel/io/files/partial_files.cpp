@@ -25,7 +25,7 @@ std::string resolved(const std::string& path) {
 
 namespace {
 
-enum class Care { none, watch, keep };
+enum class Care { none, watch, go_on, keep };
 
 /// What an earlier run left in a file.
 struct Left {
@@ -61,8 +61,10 @@ using detail::resolved;
 }  // namespace
 
 void PartialFiles::watch() { care = std::max(care, Care::watch); }
+void PartialFiles::go_on() { care = std::max(care, Care::go_on); }
 void PartialFiles::keep() { care = Care::keep; }
 bool PartialFiles::are_watched() { return care != Care::none; }
+bool PartialFiles::can_go_on() { return care >= Care::go_on; }
 bool PartialFiles::are_kept() { return care == Care::keep; }
 
 std::string PartialFiles::name_of(const std::string& target) { return target + ".partial"; }

@@ -28,9 +28,13 @@ class PartialFiles {
  public:
   /// From now on files are hashed and their lines counted.
   static void watch();
-  /// The same, and a file grows as PATH.partial, which stays when the program ends before commit.
+  /// The same, and a file grows as PATH.partial, which no other process can write meanwhile and
+  /// which stays when the program is killed.
+  static void go_on();
+  /// The same, and it also stays when the program ends otherwise before commit.
   static void keep();
   static bool are_watched();
+  static bool can_go_on();
   static bool are_kept();
 
   /// Makes PATH.partial again what it was at its mark, also where the file has been put in its

@@ -2,8 +2,11 @@
 #include "tests/cli/cubes.h"
 
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <string>
+#include <sys/file.h>
+#include <unistd.h>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -93,6 +96,75 @@ TEST_SUITE("cli") {
     CHECK(bytes_of(folder / "s.quarantine.jsonl") == bytes_of(whole / "s.quarantine.jsonl"));
     CHECK(folder.names() == std::vector<std::string>{"in.city.jsonl", "out.city.jsonl",
                                                      "s.quarantine.jsonl", "s.status.json"});
+  }
+
+  TEST_CASE("a run with a status goes on though it was not told so when it began") {
+    const Folder folder, whole;
+    const std::string input = folder.write("in.city.jsonl", with_broken_lines(city(3000)));
+    const auto resumed = label(folder, input);
+    auto begun = resumed;
+    begun.pop_back();
+    const auto is_begun = [&] {
+      return bytes_of(folder / "s.journal").find("\"records\":2") != std::string::npos;
+    };
+    for (int i = 0; i == 0 || (i < 50 && !is_begun()); ++i) {
+      std::filesystem::remove(folder / "s.journal");
+      kill_at_work(begun, folder);
+    }
+    REQUIRE(is_begun());
+    CHECK(folder.names() == std::vector<std::string>{"in.city.jsonl", "out.city.jsonl.partial",
+                                                     "s.journal", "s.quarantine.jsonl.partial"});
+    const Outcome again = run(resumed);
+    CHECK(again.exit == 3);
+    CHECK(again.says("resumes after"));
+    CHECK(run(label(whole, input)).says("there is nothing to resume from"));
+    CHECK(bytes_of(folder / "out.city.jsonl") == bytes_of(whole / "out.city.jsonl"));
+    CHECK(bytes_of(folder / "s.quarantine.jsonl") == bytes_of(whole / "s.quarantine.jsonl"));
+    CHECK(folder.names() == std::vector<std::string>{"in.city.jsonl", "out.city.jsonl",
+                                                     "s.quarantine.jsonl", "s.status.json"});
+    // Without --resume all is done anew, also beside what another run has left.
+    folder.write("out.city.jsonl.tmp-4194304-0", "{");
+    kill_at_work(begun, folder);
+    CHECK(run(begun).exit == 3);
+    CHECK(folder.names() == std::vector<std::string>{"in.city.jsonl", "out.city.jsonl",
+                                                     "s.quarantine.jsonl", "s.status.json"});
+    CHECK(bytes_of(folder / "out.city.jsonl") == bytes_of(whole / "out.city.jsonl"));
+  }
+
+  TEST_CASE("the exit code of a run that is over is not any number in its status") {
+    const Folder folder;
+    const auto arguments = label(folder, folder.write("in.city.jsonl", city(5)));
+    CHECK(run(arguments).exit == 0);
+    const std::string status = bytes_of(folder / "s.status.json");
+    for (const char* code : {"77", "3", "-1", "\"0\"", "1e300"}) {
+      CAPTURE(std::string(code));
+      folder.write("s.status.json",
+                   replaced(status, "\"exit_code\": 0", std::string("\"exit_code\": ") + code));
+      const Outcome again = run(arguments);
+      CHECK(again.exit == 0);
+      CHECK(again.says("5 of 5 buildings labelled"));
+    }
+    CHECK(run(arguments).says("there is nothing left to do"));
+  }
+
+  TEST_CASE("a run does not write what another one is writing") {
+    const Folder folder;
+    auto arguments = label(folder, folder.write("in.city.jsonl", city(5)));
+    arguments.pop_back();
+    for (const auto& [name, shown] : {std::pair("s.journal", "s.journal"),
+                                      std::pair("out.city.jsonl.partial", "out.city.jsonl")}) {
+      CAPTURE(std::string(name));
+      const std::string path = folder.write(name, "of another");
+      const int other = ::open(path.c_str(), O_RDWR);
+      REQUIRE(::flock(other, LOCK_EX) == 0);
+      const Outcome refused = run(arguments);
+      CHECK(refused.exit == 6);
+      CHECK(refused.says(std::string(shown) +
+                         ": E601 cannot be written: another process is writing it"));
+      CHECK(bytes_of(path) == "of another");
+      ::close(other);
+      CHECK(run(arguments).exit == 0);
+    }
   }
 
   TEST_CASE("a run that is over is not run again unless an input or output has changed") {
