@@ -1,13 +1,11 @@
 #include "studio/session/pack_file.h"
 
 #include "kernel/base/sha256.h"
-#include "kernel/io/files/output_file.h"
 #include "oriel/rules.h"
+#include "studio/session/saved_file.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <unistd.h>
 
@@ -18,15 +16,6 @@ namespace oriel::studio {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Nothing if there is no such file; folders and pipes are none.
-std::optional<std::string> read_text_file(const std::string& path) {
-  std::error_code problem;
-  if (!fs::is_regular_file(path, problem)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 bool is_in_folder(const fs::path& real, const std::string& folder) {
   std::error_code problem;
@@ -113,22 +102,18 @@ StudioJson PackFile::save(const RequestBody& body) {
   const auto path = body.optional_text("path");
   const std::lock_guard lock(mutex_);
   const std::string target = target_of(path);
-  const auto on_disk = read_text_file(target);
-  const std::string disk_hash = on_disk ? sha256(*on_disk) : "";
-  if (!is_forced && on_disk && disk_hash != known)
-    throw RefusedRequest(409,
-                         target == path_
-                             ? "the file was changed on disk since it was opened; nothing was saved"
-                             : fmt::format("'{}' is there already; nothing was saved", target),
-                         Code::none, {{"disk_text", *on_disk}, {"disk_hash", disk_hash}});
-  try {
-    write_file(target, text);
-  } catch (const OutputError& fault) {
-    throw RefusedRequest(500, fault.issue().sentence, fault.issue().code);
-  }
+  text_ = save_file(target, [&](const std::optional<std::string>& on_disk) {
+    const std::string disk_hash = on_disk ? sha256(*on_disk) : "";
+    if (!is_forced && on_disk && disk_hash != known)
+      throw RefusedRequest(
+          409,
+          target == path_ ? "the file was changed on disk since it was opened; nothing was saved"
+                          : fmt::format("'{}' is there already; nothing was saved", target),
+          Code::none, {{"disk_text", *on_disk}, {"disk_hash", disk_hash}});
+    return text;
+  });
   path_ = name_ = target;
-  text_ = text;
-  hash_ = sha256(text);
+  hash_ = sha256(text_);
   return {{"hash", hash_}, {"path", path_}};
 }
 

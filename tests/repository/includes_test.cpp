@@ -61,6 +61,7 @@ const std::map<std::string, std::string> kAllowedInStudio{
     {"kernel/base/sha256.h", "whether a file is still the one that was opened"},
     {"kernel/base/own_fault.h", "what an exception that nobody expects is reported as"},
     {"kernel/io/document.h", "the records that the library reads"},
+    {"kernel/io/files/file_lock.h", "one studio at a time saves"},
     {"kernel/io/files/output_file.h", "packs and corrections appear when they are whole"},
     {"kernel/model/building.h", "a value"},
     {"kernel/model/description/attributes.h", "attributes are listed with unit and meaning"},

@@ -27,7 +27,7 @@ bool has_name(int descriptor, const std::string& path) {
 
 int open_locked(const std::string& path, int flags) {
   for (int tries = 0; tries < kMaxTries; ++tries) {
-    const int descriptor = ::open(path.c_str(), flags | O_CREAT | O_CLOEXEC, 0666);
+    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
     if (descriptor < 0) return -1;
     const bool is_taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!is_taken && has_name(descriptor, path)) return descriptor;

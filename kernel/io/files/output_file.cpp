@@ -124,7 +124,7 @@ void OutputFile::open_temporary() {
 
 void OutputFile::open_partial() {
   temporary_ = PartialFiles::name_of(target_);
-  descriptor_ = detail::open_locked(temporary_, O_WRONLY);
+  descriptor_ = detail::open_locked(temporary_, O_WRONLY | O_CREAT);
   if (descriptor_ < 0) {
     temporary_.clear();
     fail(errno);

@@ -38,9 +38,12 @@ std::optional<std::string> read_correction(const nlohmann::json& object, Correct
 }  // namespace
 
 Checked<std::vector<Correction>> read_corrections(const std::string& path) {
+  return corrections_in(detail::Input(path).read_all(), path);
+}
+
+Checked<std::vector<Correction>> corrections_in(std::string_view text, const std::string& path) {
   Checked<std::vector<Correction>> result;
   std::vector<Correction>& corrections = result.value.emplace();
-  const std::string text = detail::Input(path).read_all();
   detail::for_each_line(detail::without_bom(text), [&](std::string_view line, int number) {
     const detail::TextName name{path, number};
     const auto object = detail::parse_slowly(name, line, result.issues);

@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -14,6 +15,8 @@ namespace oriel {
 /// left out and named: E152, or E103 to E105, E503, E504 if it is not JSON. Throws InputError E101
 /// if the file cannot be read.
 Checked<std::vector<Correction>> read_corrections(const std::string& path);
+/// The same of the text of a file that was read before.
+Checked<std::vector<Correction>> corrections_in(std::string_view text, const std::string& path);
 
 /// The file that read_corrections() reads as these, line by line; places are left aside.
 std::string corrections_text(std::span<const Correction> corrections);

@@ -189,7 +189,8 @@ export const words = {
   correct: {
     title: 'Correct the label', hint: 'Say what it is (C)', setParam: (name: string, value: string) => `Set ${name} to ${value}`, label: 'What it is', why: 'Why (if you like)', noClass: 'none of them', withdraw: 'Withdraw the correction',
     of: (name: string, label: string) => `${name} is called ${label}. It is`,
-    done: (name: string) => `Corrected to ${name}.`, withdrawn: 'The correction is withdrawn.', failed: 'The correction was not written.'
+    done: (name: string) => `Corrected to ${name}.`, withdrawn: 'The correction is withdrawn.', failed: 'The correction was not written.',
+    conflict: 'Someone else has corrected this part', own: 'What you say', nothing: 'no correction', takeDisk: 'Keep what is on the disk', keepOwn: 'Write what you say'
   },
   samples: {
     title: 'Samples',

@@ -11,8 +11,8 @@
 
 namespace oriel::studio {
 
-/// The file of corrections: read once, written whole with every change. Functions may be called
-/// from any thread.
+/// The file of corrections, to which others may write, too. Functions may be called from any
+/// thread.
 class CorrectionBook {
  public:
   /// `path` need not exist yet.
@@ -25,9 +25,10 @@ class CorrectionBook {
   [[nodiscard]] std::vector<Correction> list() const;
 
   /// Puts the correction in the place of earlier ones of the same feature; without a label
-  /// (nothing) it only takes those away. Writes the file and returns how many it has then. Throws
-  /// RefusedRequest if it cannot be written; nothing changes then, and nothing is ever written over
-  /// a file that could not be read.
+  /// (nothing) it only takes those away. All other lines of the file stay as they are. Returns how
+  /// many it has then. Throws RefusedRequest if it cannot be written, 409 if it has lines that
+  /// cannot be read, or, with `disk_text` and `own_text`, if the file says something else of the
+  /// feature than list(): then nothing is written, and list() is what the file says.
   std::size_t correct(Correction correction, bool is_withdrawn);
 
  private:

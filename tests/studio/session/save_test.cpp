@@ -1,6 +1,9 @@
 #include "tests/studio/session/studio_bench.h"
 
+#include <barrier>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 namespace oriel::test {
 
@@ -46,6 +49,36 @@ TEST_SUITE("studio/session") {
     body["force"] = true;
     bench.ask("save", body);
     CHECK(folder.read("mine.yaml") == "new\n");
+  }
+
+  TEST_CASE("of two saves at once one is refused and told the other text") {
+    const StudioFolder folder("at-once");
+    folder.write("mine.yaml", "first\n");
+    studio::SessionOptions options = sample_options();
+    options.rules = folder.file("mine.yaml");
+    StudioBench one(options), two(options);
+    std::string known = one.ask("state", json::object())["pack"]["hash"];
+    for (int round = 0; round < 20; ++round) {
+      CAPTURE(round);
+      std::barrier begin(2);
+      const auto save = [&](StudioBench& bench, const std::string& text, studio::Reply& reply) {
+        begin.arrive_and_wait();
+        reply = bench.reply("save", json{{"text", text}, {"hash", known}}.dump());
+      };
+      const std::string of_one = fmt::format("one {}\n", round),
+                        of_two = fmt::format("two {}\n", round);
+      studio::Reply first, second;
+      std::thread other([&] { save(two, of_two, second); });
+      save(one, of_one, first);
+      other.join();
+      const bool is_first = first.status == 200;
+      CHECK((is_first ? first : second).status == 200);
+      REQUIRE((is_first ? second : first).status == 409);
+      const json refused = json::parse((is_first ? second : first).json);
+      CHECK(refused["disk_text"] == (is_first ? of_one : of_two));
+      CHECK(folder.read("mine.yaml") == refused["disk_text"]);
+      known = refused["disk_hash"];
+    }
   }
 
   TEST_CASE("nothing is saved outside of the folders of the studio") {

@@ -2,7 +2,8 @@
 import type {App} from '../app';
 import {el, replace} from '../dom';
 import {authorOf} from '../editor/author';
-import type {Correction, Part} from '../source';
+import {openDialog} from '../saving/dialog';
+import {SourceError, type Correction, type Part} from '../source';
 import {labelOf} from '../store';
 import {words} from '../strings';
 
@@ -24,8 +25,21 @@ export async function correct(app: App, [building, feature]: Part, given: string
     document.dispatchEvent(new CustomEvent('oriel-corrected'));
     authorOf(app).loop.refresh();
   } catch (error) {
+    const body = error instanceof SourceError && error.status === 409 ? error.body : {};
+    if (typeof body['disk_text'] === 'string' && await keepsOwn(body['disk_text'], String(body['own_text'])))
+      return correct(app, [building, feature], given, why);
     app.store.say(error instanceof Error ? error.message : words.correct.failed, true);
   }
+}
+
+/** Shows what someone else has written of a part meanwhile and what the reader says; true if the reader's is to be written. */
+async function keepsOwn(diskText: string, ownText: string): Promise<boolean> {
+  const version = (title: string, text: string) => el('div', {}, el('h3', {}, title), el('pre', {}, text === '' ? words.correct.nothing : text));
+  return await openDialog<boolean>(words.correct.conflict, 'correct', close => el('div', {},
+    version(words.save.onDisk, diskText), version(words.correct.own, ownText),
+    el('div', {class: 'dialog-buttons'},
+      el('button', {type: 'button', class: 'button', onclick: () => close(false)}, words.correct.takeDisk),
+      el('button', {type: 'button', class: 'button button-main', onclick: () => close(true)}, words.correct.keepOwn)))) === true;
 }
 
 class Menu {
