@@ -274,20 +274,20 @@ class Validation {
   }
 
   void judge(const Checked<Document>& record, const std::vector<std::size_t>& families) {
-    std::map<std::string, std::vector<Finding>> open_rings;
+    std::map<std::string, std::vector<Finding>> of_reading;
     for (const Issue& issue : record.issues) {
       found_ids_.insert(issue.place.building);
       if (is_of_all_lods() && (issue.code == Code::E205 || was_told(issue))) continue;
-      if (issue.code == Code::E314)
-        open_rings[issue.place.building].push_back(finding_of(issue));
-      else if (issue.severity == Severity::error &&
-               !arguments_.selection.takes(issue.place.building, record.value->feature_type))
+      if (issue.severity == Severity::error &&
+          !arguments_.selection.takes(issue.place.building, record.value->feature_type))
         continue;
-      else if (issue.severity == Severity::error)
+      if (issue.severity == Severity::error)
         add({issue.place.building.empty() ? record.value->name : issue.place.building,
              "",
              "",
              {finding_of(issue)}});
+      else if (issue.code == Code::E313 || issue.code == Code::E314)
+        of_reading[issue.place.building].push_back(finding_of(issue));
       else if (issue.code != Code::E311 && issue.code != Code::E312)  // judged with their places
         report(issue);
     }
@@ -299,7 +299,7 @@ class Validation {
       found_ids_.insert(building.id);
       if (!arguments_.selection.takes(building, record.value->feature_type)) continue;
       judged.push_back(
-          findings_of(building, record.value->format, std::move(open_rings[building.id])));
+          findings_of(building, record.value->format, std::move(of_reading[building.id])));
       buildings.push_back(&building);
       if (judged.back().is_valid_solid()) parts[families[i]].push_back(judged.size() - 1);
     }
@@ -325,7 +325,7 @@ class Validation {
   }
 
   BuildingFindings findings_of(const Building& building, Format format,
-                               std::vector<Finding> open_rings) const {
+                               std::vector<Finding> of_reading) const {
     ValidateOptions options = arguments_.options;
     // A mesh file does not state what it holds.
     const bool is_mesh = oriel::is_mesh(format);
@@ -337,8 +337,8 @@ class Validation {
         : arguments_.primitive == "surfaces"         ? ValidateOptions::Primitive::surfaces
                                                      : ValidateOptions::Primitive::as_stated;
     // As in val3dity a shell with an open ring is not judged as a shell.
-    if (!open_rings.empty()) options.primitive = ValidateOptions::Primitive::surfaces;
-    std::vector<Finding> findings = std::move(open_rings);
+    if (!of_reading.empty()) options.primitive = ValidateOptions::Primitive::surfaces;
+    std::vector<Finding> findings = std::move(of_reading);
     for (Finding& finding : validate(building, options)) findings.push_back(std::move(finding));
     return {building.id, building.lod, is_solid ? "solid" : "surfaces", std::move(findings)};
   }

@@ -67,7 +67,8 @@ std::optional<Vec3> point_at(std::span<const Points> outlines, Vec3 normal, cons
     (*point).*axes.v = level;
   }
   if (!point) return std::nullopt;
-  const double missing = dot(outlines.front().front(), normal) - dot(*point, normal);
+  const auto any = std::ranges::find_if_not(outlines, &Points::empty);
+  const double missing = dot(any->front(), normal) - dot(*point, normal);
   (*point).*axes.dropped = missing / (normal.*axes.dropped);
   return point;
 }

@@ -62,7 +62,8 @@ inline Building shuffled(const Building& building, std::uint64_t seed,
     polygon.source = static_cast<int>(out.polygons.size());
     for (auto& ring : polygon.rings) {
       for (int& v : ring) v = place[static_cast<std::size_t>(v)];
-      std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(below(ring.size())));
+      if (!ring.empty())
+        std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(below(ring.size())));
     }
     out.polygons.push_back(std::move(polygon));
   }

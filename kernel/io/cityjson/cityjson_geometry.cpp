@@ -59,6 +59,7 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
   warnings_.clear();
   fault_.reset();
   repeats_.clear();
+  without_outer_.clear();
   for (auto& level : ends_) level.clear();
   body_ = 0;
   shell_ = 0;
@@ -191,6 +192,19 @@ bool GeometryReader::read_bodies(dom::element boundaries, GeometryKind kind) {
   }
   if (polygons_.empty())
     return fail(Code::E313, "the geometry has no polygon (val3dity 902 EMPTY_PRIMITIVE)");
+  std::ptrdiff_t empty = 0;
+  for (const std::vector<int>& ends : ends_)
+    for (std::size_t i = 0; i < ends.size(); ++i) empty += ends[i] == (i > 0 ? ends[i - 1] : 0);
+  if (empty > 0)
+    warnings_.push_back(
+        {Code::E313, fmt::format("{} no polygon (val3dity 902 EMPTY_PRIMITIVE)",
+                                 counted(empty, "shell or solid has", "shells or solids have"))});
+  if (!without_outer_.empty())
+    warnings_.push_back(
+        {Code::E201,
+         fmt::format("{} no exterior ring, the first is polygon {}; nothing of {} is read",
+                     counted(without_outer_.size(), "polygon has", "polygons have"),
+                     without_outer_[0], agreeing(without_outer_.size(), "it", "them"))});
   return true;
 }
 
@@ -219,9 +233,14 @@ bool GeometryReader::read_surfaces(dom::element shell) {
     if (!rings)
       return fail(Code::E202, fmt::format("polygon {} is {}; expected an array of rings", number,
                                           found_kind(surface)));
-    begin_polygon();
-    for (const dom::element ring : *rings)
+    Polygon& polygon = begin_polygon();
+    for (const dom::element ring : *rings) {
+      // Holes need an outer ring around them.
+      if (!polygon.rings.empty() && polygon.rings[0].empty()) break;
       if (!read_ring(ring)) return false;
+    }
+    if (polygon.rings.empty()) append_ring({});
+    if (polygon.rings[0].empty() && rings->size() != 1) without_outer_.push_back(polygon.source);
   }
   ends_[0].push_back(static_cast<int>(polygons_.size()));
   return true;

@@ -52,7 +52,7 @@ class GeometryReader {
   /// stand behind them. If something is wrong `building` stays as it is.
   std::optional<Fault> add(dom::object geometry, GeometryKind kind, Building& building);
 
-  /// What was odd in the last geometry: E208, E311, E312.
+  /// What was odd in the last geometry: E201, E208, E311, E312, E313.
   [[nodiscard]] const std::vector<Fault>& warnings() const { return warnings_; }
 
  private:
@@ -90,6 +90,8 @@ class GeometryReader {
   /// Of each shell the end of its polygons, of each solid the end of its shells.
   std::array<std::vector<int>, 2> ends_;
   std::vector<RepeatedVertex> repeats_;
+  /// Polygons whose outer ring is empty though there are holes, and those of no ring at all.
+  std::vector<int> without_outer_;
   std::optional<Fault> fault_;
   std::vector<Fault> warnings_;
 };

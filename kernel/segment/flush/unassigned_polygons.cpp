@@ -59,7 +59,7 @@ class Joiner {
       for (const int source : facet.polygons) has_facet[at(source)] = 1;
     std::vector<UnassignedPolygon> loose;
     for (const Polygon& polygon : building_.polygons) {
-      if (polygon.source < 0 || has_facet[at(polygon.source)]) continue;
+      if (polygon.source < 0 || has_facet[at(polygon.source)] || polygon.rings[0].empty()) continue;
       UnassignedPolygon found{
           polygon.source, outlines_of(building_, polygon, solid_.grid_m), {}, 0};
       double round_m = 0;

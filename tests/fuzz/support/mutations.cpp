@@ -181,9 +181,36 @@ void flatten(Building& building, ByteSource& bytes) {
 
 void say_surfaces(Building& building, ByteSource& bytes) { building.is_solid = bytes.flag(); }
 
+/// Takes all out of a ring, of a polygon, of a shell or of a solid; one polygon stays.
+void empty_list(Building& building, ByteSource& bytes) {
+  Polygon& polygon = building.polygons[bytes.below(building.polygons.size())];
+  const int body = polygon.body, shell = polygon.shell, what = bytes.below(4);
+  const auto is_emptied = [&](const Polygon& other) {
+    return other.body == body && (what == 3 || other.shell == shell);
+  };
+  if (what == 0)
+    polygon.rings[bytes.below(polygon.rings.size())].clear();
+  else if (what == 1)
+    polygon.rings = {{}};
+  else if (!std::ranges::all_of(building.polygons, is_emptied))
+    std::erase_if(building.polygons, is_emptied);
+}
+
+bool has_empty_ring(const Building& building) {
+  return std::ranges::any_of(building.polygons, [](const Polygon& polygon) {
+    return std::ranges::any_of(polygon.rings, &std::vector<int>::empty);
+  });
+}
+
+/// Bytes from here on empty a list: further ones are as they were before that was a change.
+constexpr int kEmpties = 240;
+
 }  // namespace
 
 void mutate(Building& building, ByteSource& bytes) {
+  const int choice = bytes.byte();
+  // The others need corners.
+  if (choice >= kEmpties || has_empty_ring(building)) return empty_list(building, bytes);
   void (*const ways[])(Building&, ByteSource&) = {
       move_corner,    fold,          move_all_of_a_polygon,
       merge_corners,  drop_polygon,  turn_polygon,
@@ -191,7 +218,7 @@ void mutate(Building& building, ByteSource& bytes) {
       add_noise,      add_body,      add_inner_ring,
       cross_ring,     repeat_corner, flatten,
       say_surfaces};
-  ways[bytes.below(std::size(ways))](building, bytes);
+  ways[static_cast<std::size_t>(choice) % std::size(ways)](building, bytes);
 }
 
 }  // namespace oriel::fuzz

@@ -9,7 +9,8 @@ namespace oriel::fuzz {
 /// little or out of its plane, corners made one, a polygon left out, doubled, turned round or cut
 /// in two, a corner put into an edge of one of its polygons only, noise, a second body that
 /// touches, overlaps or equals the first, a shell inside, an inner ring, a ring that crosses
-/// itself. Polygons stay above 0, of one ring or more with three corners or more.
+/// itself, a ring, a polygon, a shell or a solid without anything in it. Polygons stay above 0, of
+/// one ring or more; rings that are not empty have three corners or more.
 void mutate(Building& building, ByteSource& bytes);
 
 }  // namespace oriel::fuzz

@@ -31,7 +31,7 @@ std::string list_of(const Polygons& polygons) {
   return "[" + text + "]";
 }
 
-/// In shells, if the numbers of shells say so.
+/// In shells, if the numbers of shells say so; of a number that no polygon has an empty one.
 std::string shells_of(const Polygons& body) {
   std::string text;
   int last = 0;
@@ -40,7 +40,7 @@ std::string shells_of(const Polygons& body) {
     Polygons some;
     for (const Polygon* polygon : body)
       if (polygon->shell == shell) some.push_back(polygon);
-    if (!some.empty()) text += (text.empty() ? "" : ",") + list_of(some);
+    text += (shell == 0 ? "" : ",") + list_of(some);
   }
   return "[" + text + "]";
 }
@@ -58,7 +58,7 @@ std::string boundaries_of(const Building& building, std::string& type) {
     Polygons some;
     for (const Polygon* polygon : all)
       if (polygon->body == body) some.push_back(polygon);
-    if (!some.empty()) text += (text.empty() ? "" : ",") + shells_of(some);
+    text += (body == 0 ? "" : ",") + shells_of(some);
   }
   return "[" + text + "]";
 }

@@ -113,6 +113,16 @@ TEST_SUITE("kernel/geometry") {
       }
   }
 
+  TEST_CASE("empty outlines of a figure do not matter") {
+    const Drawing d = drawings()[2];
+    const std::vector<Outline> figure{{}, d.rectangle(0, 0, 3, 2), {}};
+    const auto point = interior_point(figure, d.normal());
+    REQUIRE(point);
+    CHECK(contains(figure, d.normal(), *point));
+    CHECK(std::abs(dot(d.normal(), *point - d.origin)) < 1e-9);
+    CHECK_FALSE(interior_point(std::vector<Outline>{{}, {}}, d.normal()));
+  }
+
   TEST_CASE("a figure without area has no interior point") {
     const Drawing d = drawings()[2];
     CHECK_FALSE(interior_point(std::vector<Outline>{}, d.normal()));

@@ -283,6 +283,55 @@ TEST_SUITE("kernel/io") {
     }
   }
 
+  TEST_CASE("a polygon without an outer ring is left out with its place and the rest is read") {
+    for (const char* rings : {"[]", "[[],[4,5,6,7]]", "[[],[4,5,5,6,7],[]]"}) {
+      CAPTURE(rings);
+      BoxFile file;
+      file.boundaries = "[[[[0,3,2,1]]," + std::string(rings) + ",[[0,1,5,4]]]]";
+      const auto record = read_text(file.text());
+      REQUIRE(record.value->buildings.size() == 1);
+      const Building& building = record.value->buildings[0];
+      REQUIRE(building.polygons.size() == 3);
+      CHECK(building.polygons[1].rings == std::vector<std::vector<int>>{{}});
+      CHECK(building.polygons[2].source == 2);
+      CHECK(building.repeats.empty());
+      CHECK(building.vertices.size() == 6);
+      CHECK(codes_of(record.issues) == "E201 E311");
+      CHECK(record.issues[0].severity == Severity::warning);
+      CHECK(record.issues[0].place.building == building.id);
+      CHECK(record.issues[0].sentence ==
+            "1 polygon has no exterior ring, the first is polygon 1; nothing of it is read");
+    }
+  }
+
+  TEST_CASE("shells and solids without polygons are named and the others are read") {
+    const std::string shell = "[[[0,3,2,1]],[[4,5,6,7]]]";
+    for (const auto& [type, boundaries] : std::vector<std::pair<std::string, std::string>>{
+             {"Solid", "[" + shell + ",[]]"},
+             {"Solid", "[[]," + shell + "]"},
+             {"MultiSolid", "[[],[" + shell + "]]"},
+             {"MultiSolid", "[[[]],[" + shell + "]]"},
+             {"CompositeSolid", "[[" + shell + "],[]]"}}) {
+      CAPTURE(boundaries);
+      BoxFile file;
+      file.type = type;
+      file.boundaries = boundaries;
+      const auto record = read_text(file.text());
+      REQUIRE(record.value->buildings.size() == 1);
+      CHECK(record.value->buildings[0].polygons.size() == 2);
+      CHECK(codes_of(record.issues) == "E313");
+      CHECK(record.issues[0].severity == Severity::warning);
+    }
+    for (const char* boundaries : {"[]", "[[]]", "[[],[]]"}) {
+      CAPTURE(boundaries);
+      BoxFile file;
+      file.boundaries = boundaries;
+      const auto record = read_text(file.text());
+      CHECK(record.value->buildings.empty());
+      CHECK(codes_of(record.issues) == "E313");
+    }
+  }
+
   TEST_CASE("a vertex named twice in a row is read once with a warning") {
     BoxFile file;
     file.boundaries = "[[[[0,3,3,2,1,0]]]]";
