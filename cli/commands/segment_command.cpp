@@ -31,6 +31,7 @@ struct SegmentArguments : RunOptions {
   bool is_json = false;
   bool has_faces = false;
   bool has_tree = false;
+  TreeForm tree_form = TreeForm::flat;
   bool counts_as_paper = false;
   std::string out = "-";
   std::string features;
@@ -85,17 +86,6 @@ ordered_json json_of(const BalanceProof& proof) {
           {"differing", proof.differing}};
 }
 
-ordered_json json_of(const std::vector<CsgNode>& nodes, NodeId id) {
-  const CsgNode& node = nodes[id.index()];
-  if (node.kind == CsgNode::Kind::leaf) return {{"kind", "leaf"}, {"cell", node.cell.value}};
-  ordered_json out{{"kind", node.kind == CsgNode::Kind::unite ? "union" : "difference"}};
-  out["rest"] = ordered_json::array();
-  out["parts"] = ordered_json::array();
-  for (const NodeId child : node.rest) out["rest"].push_back(json_of(nodes, child));
-  for (const NodeId child : node.parts) out["parts"].push_back(json_of(nodes, child));
-  return out;
-}
-
 std::string text_of(const TreeFigures& figures) {
   return fmt::format("{}, {} inner, depth {}, weighted path {:.3f}",
                      counted(figures.leaves, "leaf", "leaves"), figures.inner, figures.depth,
@@ -111,8 +101,9 @@ std::string text_of(const BalanceProof& proof) {
 /// What --tree writes of a building: its CSG tree as it was cut, balanced and with touching parts
 /// merged, each with its figures, and whether all are one body. A line of text, or of JSON
 /// (docs/formats.md).
-std::string tree_report(const std::string& building, const TreeComparison& trees, bool is_json) {
-  if (!is_json)
+std::string tree_report(const std::string& building, const TreeComparison& trees,
+                        const SegmentArguments& arguments) {
+  if (!arguments.is_json)
     return fmt::format("{}:\n  as cut    {}\n  balanced  {}; {}\n  merged    {}; {}\n",
                        printable(building), text_of(trees.cut), text_of(trees.balanced),
                        text_of(trees.balanced_proof), text_of(trees.merged),
@@ -132,8 +123,10 @@ std::string tree_report(const std::string& building, const TreeComparison& trees
                              {"planes", std::move(planes)},
                              {"volume_m3", merge.volume_m3}});
   }
-  out["tree"] = json_of(trees.tree.nodes, trees.tree.root);
-  return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  std::string text = out.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  text.pop_back();
+  append_tree(text, trees.tree.nodes, trees.tree.root, arguments.tree_form);
+  return text + "}\n";
 }
 
 /// Writes JSON or a listing, and the records of features, each if asked for.
@@ -182,7 +175,8 @@ class Segmenter final : public VisitingCommand {
         arguments_.has_tree          ? tree_text(building, line)
         : arguments_.counts_as_paper ? paper_text(building, line)
         : arguments_.is_json
-            ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
+            ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr,
+                                arguments_.tree_form)
             : segment_listing(building, line);
     if (text_) text_->append(text);
     if (!features_) return;
@@ -222,7 +216,7 @@ class Segmenter final : public VisitingCommand {
     const TreeComparison trees = compare_trees(line, arguments_.budget);
     if (trees.is_used_up)
       warn_of_budget(building, "proving the tree", "only some of the points were compared");
-    if (trees.is_same_body()) return tree_report(building.id, trees, arguments_.is_json);
+    if (trees.is_same_body()) return tree_report(building.id, trees, arguments_);
     runner_.set_aside(building_issue(Severity::error, Code::E901, building.id,
                                      "a fault of oriel's own: its balanced tree is another body"));
     return {};
@@ -274,6 +268,12 @@ void add_segment(CLI::App& app, Action& action) {
           ->add_flag("--faces", arguments->has_faces,
                      "With --json: also the faces between cells, and which cells touch")
           ->needs(json);
+  command
+      ->add_flag_callback(
+          "--nested-tree", [arguments] { arguments->tree_form = TreeForm::nested; },
+          "With --json: the tree as objects within objects, the form before this release; the next "
+          "release drops it")
+      ->needs(json);
   CLI::Option* tree = command->add_flag(
       "--tree", arguments->has_tree,
       "Instead of the parts: the CSG tree as cut, balanced, and with touching parts merged; its "

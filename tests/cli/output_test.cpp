@@ -209,6 +209,6 @@ TEST_SUITE("cli") {
     CHECK(json["balanced"]["leaves"] == json["cut"]["leaves"]);
     CHECK(json["balanced"]["depth"] < json["cut"]["depth"]);
     CHECK(json["balanced"]["weighted_path"] < json["cut"]["weighted_path"]);
-    CHECK(json["tree"]["kind"] == "difference");
+    CHECK(json["nodes"][json["root"].get<std::size_t>()]["kind"] == "difference");
   }
 }

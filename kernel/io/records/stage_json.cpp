@@ -58,64 +58,56 @@ void append_cells(std::string& out, const Segmentation& segmentation) {
   });
 }
 
-/// Appends the tree. What is still to be written waits on a stack of its own, so that deep trees
-/// do not need the program's.
-class TreeWriter {
- public:
-  TreeWriter(std::string& out, const Segmentation& segmentation)
-      : out_(out), segmentation_(segmentation) {}
-
-  void write() {
-    todo_.emplace_back(segmentation_.root);
-    while (!todo_.empty()) {
-      const Item item = todo_.back();
-      todo_.pop_back();
-      if (const auto* text = std::get_if<std::string_view>(&item))
-        out_ += *text;
-      else
-        write_node(segmentation_.nodes[std::get<NodeId>(item).index()]);
-    }
+/// Appends the kind of a node, and what a leaf is or where another node was cut.
+void append_node(std::string& out, const CsgNode& node) {
+  if (node.kind == CsgNode::Kind::leaf) {
+    append_field(out, "kind", std::string_view("leaf"));
+    append_field(out, "cell", node.cell.value);
+    return;
   }
+  const bool is_union = node.kind == CsgNode::Kind::unite;
+  append_field(out, "kind", std::string_view(is_union ? "union" : "difference"));
+  append_ids(out, "planes", node.planes);
+  append_field(out, "value", node.value);
+  append_field(out, "quality", node.quality);
+}
 
- private:
-  using Item = std::variant<std::string_view, NodeId>;
-
-  void write_node(const CsgNode& node) {
-    out_ += '{';
-    if (node.kind == CsgNode::Kind::leaf) {
-      append_field(out_, "kind", std::string_view("leaf"));
-      append_field(out_, "cell", node.cell.value);
-      out_ += '}';
-      return;
+/// Appends a tree as nested objects, or null. What is still to be written waits on a stack of its
+/// own, so that deep trees do not need the program's.
+void append_nested(std::string& out, std::span<const CsgNode> nodes, NodeId root) {
+  append_json_key(out, "tree");
+  std::vector<std::variant<std::string_view, NodeId>> todo{root};
+  if (!root.is_valid()) todo.front() = "null";
+  const auto push = [&](const std::vector<NodeId>& children) {
+    for (std::size_t i = children.size(); i-- > 0;) {
+      todo.emplace_back(children[i]);
+      if (i > 0) todo.emplace_back(",");
     }
-    const bool is_union = node.kind == CsgNode::Kind::unite;
-    append_field(out_, "kind", std::string_view(is_union ? "union" : "difference"));
-    append_ids(out_, "planes", node.planes);
-    append_field(out_, "value", node.value);
-    append_field(out_, "quality", node.quality);
-    out_ += R"(,"rest":[)";
-    todo_.emplace_back("]}");
-    push_nodes(node.parts);
-    todo_.emplace_back(R"(],"parts":[)");
-    push_nodes(node.rest);
-  }
-
-  void push_nodes(const std::vector<NodeId>& nodes) {
-    for (std::size_t i = nodes.size(); i-- > 0;) {
-      todo_.emplace_back(nodes[i]);
-      if (i > 0) todo_.emplace_back(",");
+  };
+  while (!todo.empty()) {
+    const auto item = todo.back();
+    todo.pop_back();
+    if (const auto* text = std::get_if<std::string_view>(&item)) {
+      out += *text;
+      continue;
     }
+    const CsgNode& node = nodes[std::get<NodeId>(item).index()];
+    out += '{';
+    append_node(out, node);
+    out += node.kind == CsgNode::Kind::leaf ? "}" : R"(,"rest":[)";
+    if (node.kind == CsgNode::Kind::leaf) continue;
+    todo.emplace_back("]}");
+    push(node.parts);
+    todo.emplace_back(R"(],"parts":[)");
+    push(node.rest);
   }
+}
 
-  std::string& out_;
-  const Segmentation& segmentation_;
-  std::vector<Item> todo_;
-};
-
-void append_side(std::string& out, std::string_view key, CellId side) {
+template <class Id>
+void append_id(std::string& out, std::string_view key, Id id) {
   append_json_key(out, key);
-  if (side.is_valid())
-    append_json(out, side.value);
+  if (id.is_valid())
+    append_json(out, id.value);
   else
     out += "null";
 }
@@ -138,8 +130,8 @@ void append_complex(std::string& out, const CellComplex& complex, std::size_t ce
   append_objects(out, "faces", complex.faces(), [&](const Face& face) {
     append_field(out, "id", static_cast<int>(&face - complex.faces().data()));
     append_field(out, "plane", face.plane.value);
-    append_side(out, "front", face.front);
-    append_side(out, "behind", face.behind);
+    append_id(out, "front", face.front);
+    append_id(out, "behind", face.behind);
     append_field(out, "area_m2", face.area_m2);
     append_list(out, "loops", face.loops, [&](Loop loop) {
       for (int& v : loop) v = number[static_cast<std::size_t>(v)];
@@ -153,8 +145,8 @@ void append_complex(std::string& out, const CellComplex& complex, std::size_t ce
       if (!contact.cell.is_valid() || contact.cell.value > c)
         contacts.emplace_back(CellId{c}, contact);
   append_objects(out, "contacts", contacts, [&](const std::pair<CellId, Contact>& contact) {
-    append_side(out, "cell", contact.first);
-    append_side(out, "neighbour", contact.second.cell);
+    append_id(out, "cell", contact.first);
+    append_id(out, "neighbour", contact.second.cell);
     append_field(out, "area_m2", contact.second.area_m2);
   });
   append_field(out, "open_edges", complex.open_edge_count());
@@ -233,8 +225,21 @@ void append_issue(std::string& out, const Issue& issue) {
 
 }  // namespace
 
+void append_tree(std::string& out, std::span<const CsgNode> nodes, NodeId root, TreeForm form) {
+  if (form == TreeForm::nested) return append_nested(out, nodes, root);
+  append_id(out, "root", root);
+  append_objects(out, "nodes", nodes, [&](const CsgNode& node) {
+    append_field(out, "id", static_cast<int>(&node - nodes.data()));
+    append_node(out, node);
+    if (node.kind == CsgNode::Kind::leaf) return;
+    append_ids(out, "rest", node.rest);
+    append_ids(out, "parts", node.parts);
+  });
+}
+
 std::string segmentation_json(const Building& building, const Segmentation& segmentation,
-                              const FeatureTable& table, const CellComplex* complex) {
+                              const FeatureTable& table, const CellComplex* complex,
+                              TreeForm form) {
   std::string out = "{";
   append_field(out, "id", std::string_view(building.id));
   append_json_key(out, "frame");
@@ -246,11 +251,7 @@ std::string segmentation_json(const Building& building, const Segmentation& segm
   append_field(out, "order", std::string_view(to_string(segmentation.order)));
   append_cells(out, segmentation);
   if (complex != nullptr) append_complex(out, *complex, segmentation.cells.size());
-  append_json_key(out, "tree");
-  if (segmentation.root.is_valid())
-    TreeWriter(out, segmentation).write();
-  else
-    out += "null";
+  append_tree(out, segmentation.nodes, segmentation.root, form);
   const std::vector<std::string> names = feature_names(segmentation, table, nullptr);
   append_list(out, "features", segmentation.features, [&](const Feature& feature) {
     const auto row = static_cast<std::size_t>(&feature - segmentation.features.data());
@@ -263,12 +264,6 @@ std::string segmentation_json(const Building& building, const Segmentation& segm
 }
 
 namespace {
-
-using detail::append_field;
-using detail::append_json_array;
-using detail::append_json_key;
-using detail::append_objects;
-using detail::append_vector;
 
 void append_left_out(std::string& out, std::string_view key, const std::vector<int>& polygons,
                      double area_m2) {

@@ -12,6 +12,32 @@ namespace {
 
 using nlohmann::json;
 
+const json kTree = json::parse(R"({"kind":"union","planes":[0],"value":0.25,"quality":0.5,
+    "rest":[{"kind":"leaf","cell":0}],
+    "parts":[{"kind":"difference","planes":[1],"value":0.75,"quality":null,
+              "rest":[{"kind":"leaf","cell":1}],"parts":[{"kind":"leaf","cell":2}]}]})");
+
+/// A node of the flat list with its children in it.
+json nested(const json& root, const json& id) {
+  json node = root["nodes"][id.get<std::size_t>()];
+  CHECK(node["id"] == id);
+  node.erase("id");
+  for (const char* key : {"rest", "parts"})
+    if (node.contains(key))
+      for (json& child : node[key]) child = nested(root, json(child));
+  return node;
+}
+
+/// How many brackets of an ASCII text are open at most.
+int depth_of(const std::string& text) {
+  int open = 0, most = 0;
+  for (const char c : text) {
+    open += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+    most = std::max(most, open);
+  }
+  return most;
+}
+
 TEST_SUITE("kernel/io") {
   TEST_CASE("a segmentation is one line of JSON with everything that machines read") {
     const test::SmallSegmentation small;
@@ -26,10 +52,7 @@ TEST_SUITE("kernel/io") {
     CHECK(root["order"] == "natural");
     CHECK(root["cells"][2] ==
           json::parse(R"({"id":2,"sign":-1,"volume_m3":0.125,"convex":true,"flag":"own"})"));
-    CHECK(root["tree"] == json::parse(R"({"kind":"union","planes":[0],"value":0.25,"quality":0.5,
-        "rest":[{"kind":"leaf","cell":0}],
-        "parts":[{"kind":"difference","planes":[1],"value":0.75,"quality":null,
-                  "rest":[{"kind":"leaf","cell":1}],"parts":[{"kind":"leaf","cell":2}]}]})"));
+    CHECK(nested(root, root["root"]) == kTree);
     CHECK(root["stats"] ==
           json::parse(R"({"leaves":3,"inner":2,"recursions":5,"protrusion_tests":10,
         "hole_tests":20,"candidates":4,"instanced":0})"));
@@ -74,7 +97,15 @@ TEST_SUITE("kernel/io") {
                     .contains("faces"));
   }
 
-  TEST_CASE("a tree of any depth is written") {
+  TEST_CASE("the form of a tree before this release is nested") {
+    const test::SmallSegmentation small;
+    const json root = json::parse(segmentation_json(small.building, small.segmentation, small.table,
+                                                    nullptr, TreeForm::nested));
+    CHECK(root["tree"] == kTree);
+    CHECK_FALSE(root.contains("nodes"));
+  }
+
+  TEST_CASE("a tree of any depth is written and nests no deeper") {
     test::SmallSegmentation small;
     Segmentation& segmentation = small.segmentation;
     constexpr int kDepth = 200000;
@@ -86,16 +117,22 @@ TEST_SUITE("kernel/io") {
       node.parts = {NodeId{2 * i + 1}};
     }
     segmentation.features.clear();
-    const std::string line =
-        segmentation_json(small.building, segmentation, FeatureTable("house", 0));
-    CHECK(std::ranges::count(line, '{') == std::ranges::count(line, '}'));
-    CHECK(line.size() > 100U * kDepth);
+    const FeatureTable table("house", 0);
+    const std::string line = segmentation_json(small.building, segmentation, table);
+    CHECK(depth_of(line) <= 4);
+    CHECK(json::parse(line)["nodes"].size() == segmentation.nodes.size());
+    const std::string deep =
+        segmentation_json(small.building, segmentation, table, nullptr, TreeForm::nested);
+    CHECK(depth_of(deep) > kDepth);
+    CHECK(std::ranges::count(deep, '{') == std::ranges::count(deep, '}'));
   }
 
   TEST_CASE("a segmentation of nothing is still an object") {
     const json root = json::parse(segmentation_json({}, {}, {}));
-    CHECK(root["tree"].is_null());
+    CHECK(root["root"].is_null());
+    CHECK(root["nodes"].empty());
     CHECK(root["features"].empty());
+    CHECK(json::parse(segmentation_json({}, {}, {}, nullptr, TreeForm::nested))["tree"].is_null());
   }
 }
 
