@@ -2,14 +2,18 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
+#include "kernel/base/log.h"
 #include "kernel/mesh/half_edges.h"
 #include "kernel/mesh/manifold.h"
 #include "kernel/mesh/triangulate.h"
 
 #include <algorithm>
+#include <iostream>
 #include <map>
 #include <span>
 #include <utility>
+
+#include <OpenMesh/Core/System/omstream.hh>
 
 namespace oriel {
 
@@ -63,10 +67,23 @@ struct FaceList {
   }
 };
 
+/// Writes to the log what OpenMesh would write to stderr.
+class ComplaintLog {
+ public:
+  ComplaintLog() {
+    omerr().disconnect(std::cerr);
+    omerr().connect(*this);
+  }
+  void operator<<(const std::string& text) const {
+    log("kernel").debug("openmesh: {}", text.substr(0, text.find('\n')));
+  }
+};
+
 /// Puts faces into OpenMesh, which takes what leaves every vertex with one fan of faces.
 class HalfEdgeBuilder {
  public:
   HalfEdgeBuilder(Mesh::HalfEdges& out, const MeshSource& source) : out_(out), source_(source) {
+    static const ComplaintLog complaints;
     out_.features = source.features;
     out_.originals = static_cast<int>(source.points.size());
     for (int v = 0; v < out_.originals; ++v) add_vertex(v);
@@ -110,7 +127,7 @@ class HalfEdgeBuilder {
     return out_.mesh.add_face(handles);
   }
 
-  /// What OpenMesh asks of a face, which it would complain of on stderr.
+  /// Says whether a face is what OpenMesh asks for.
   [[nodiscard]] bool fits(const std::vector<VertexHandle>& corners) const {
     const PolyMesh& mesh = out_.mesh;
     std::vector<int> sorted;
