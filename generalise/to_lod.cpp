@@ -39,7 +39,7 @@ Redrawn drawn_blocks(const LabelledBuilding& labelled, Solid solid) {
 Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
                         const Segmentation& segmentation, const FeatureTable& table,
                         const Interpretation& interpretation, const Profile& profile,
-                        Generalised generalised, const Tolerances& tolerances,
+                        Generalised generalised, const Tolerances& tolerances, Work& work,
                         std::function<bool(const Box& gained)> may_cover,
                         std::function<bool(Vec3 from, Vec3 to)> is_shared) {
   Checked<Redrawn> out;
@@ -54,7 +54,7 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
     options.least_edge_m = profile.footprint_edge_m;
     options.may_cover = std::move(may_cover);
     options.is_shared = std::move(is_shared);
-    auto made = blocks(generalised.solid, building.id, options, tolerances);
+    auto made = blocks(generalised.solid, building.id, options, tolerances, work);
     out.issues = std::move(made.issues);
     if (!made.value) return out;
     const auto note = [&](std::string sentence) {

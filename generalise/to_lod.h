@@ -2,6 +2,7 @@
 
 #include "generalise/generalise.h"
 #include "interpret/plan/profile.h"
+#include "kernel/base/work.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/model/vec3.h"
 
@@ -15,11 +16,12 @@ namespace oriel {
 /// As it is: redraw(), with the whole geometry drawn anew. As blocks: kernel/blocks/blocks.h of the
 /// solid; each facet is a semantic surface RoofSurface, WallSurface or GroundSurface, and no
 /// installation is left. `may_cover` and `is_shared`, of one block: BlockOptions. Note G407 if
-/// blocks had to be simpler than asked for, G406 (error) and no value if there are none.
+/// blocks had to be simpler than asked for, G406 (error) and no value if there are none, or if
+/// `work` is used up.
 Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
                         const Segmentation& segmentation, const FeatureTable& table,
                         const Interpretation& interpretation, const Profile& profile,
-                        Generalised generalised, const Tolerances& tolerances = {},
+                        Generalised generalised, const Tolerances& tolerances, Work& work,
                         std::function<bool(const Box& gained)> may_cover = {},
                         std::function<bool(Vec3 from, Vec3 to)> is_shared = {});
 

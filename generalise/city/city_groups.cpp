@@ -278,6 +278,12 @@ Solid CityGroups::solid(std::size_t group) const {
 void CityGroups::make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const {
   const AlikeGroup& found = group.found;
   if (!group.fault.empty()) return;
+  if (found.used_up > 0) {
+    group.code = Code::E502;
+    group.fault =
+        fmt::format("uniting its ground used up the work budget of {} steps", found.used_up);
+    return;
+  }
   if (found.areas.size() != 1) {
     group.fault = found.areas.empty() ? "it covers no ground" : "its ground falls apart";
     return;

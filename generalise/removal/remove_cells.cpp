@@ -98,6 +98,7 @@ class CellRemover {
       : solid_(solid),
         segmentation_(segmentation),
         validator_(validator),
+        work_(validator.work != nullptr ? *validator.work : uncounted_),
         unseen_m_(unseen_m),
         options_(options),
         complex_(validator.complex ? validator.complex
@@ -271,7 +272,7 @@ class CellRemover {
     const auto before = fates_of(base_gone_), after = fates_of(all);
     std::vector<CellId> leaves = cells_with(after);
     std::erase_if(leaves, [&](CellId cell) { return fate_of(cell, before).has_value(); });
-    auto made = detail::take_out(base_, segmentation_, leaves, options_.tolerances);
+    auto made = detail::take_out(base_, segmentation_, leaves, options_.tolerances, work_);
     if (!made) return std::nullopt;
     const Ids gone = with_what_sits_on(segmentation_, all);
     const std::set<int> lost = polygons_of(gone);
@@ -289,21 +290,17 @@ class CellRemover {
   std::optional<Solid> without(const Ids& all, std::optional<Refusal>& fault) {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const auto fates = fates_of(all);
-    Work uncounted;
     std::optional<CellComplex>& complex = *complex_;
-    if (!complex)
-      complex = cell_complex(segmentation_, options_.tolerances,
-                             validator_.work != nullptr ? *validator_.work : uncounted);
+    if (!complex) complex = cell_complex(segmentation_, options_.tolerances, work_);
     if (!complex) return std::nullopt;
     auto made = solid_of(draft_of(*complex, cells_without(fates)), gone, fault);
     // Cells that others cut through meet where all planes of the building do; what goes meets the
     // building in a few of them.
-    if (!made)
-      made = solid_of(
-          draft_of(body_without(solid_, segmentation_, cells_with(fates), options_.tolerances),
-                   {CellId{0}}),
-          gone, fault);
-    return made;
+    if (made) return made;
+    const auto body =
+        body_without(solid_, segmentation_, cells_with(fates), options_.tolerances, work_);
+    if (!body) return std::nullopt;
+    return solid_of(draft_of(*body, {CellId{0}}), gone, fault);
   }
 
   /// A solid of these faces that does, with vertices as near to each other as that takes.
@@ -403,6 +400,8 @@ class CellRemover {
   const Solid& solid_;
   const Segmentation& segmentation_;
   const SolidValidator& validator_;
+  Work uncounted_;
+  Work& work_;
   double unseen_m_;
   const SegmentOptions& options_;
   std::shared_ptr<std::optional<CellComplex>> complex_;  ///< once asked for

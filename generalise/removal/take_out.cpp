@@ -142,9 +142,11 @@ class SolidOfFaces {
 }  // namespace
 
 std::optional<Solid> take_out(const Solid& solid, const Segmentation& segmentation,
-                              std::span<const CellId> leaves, const Tolerances& tolerances) {
-  const CellComplex complex = body_without(solid, segmentation, leaves, tolerances);
-  Solid made = SolidOfFaces(solid, segmentation, complex).run();
+                              std::span<const CellId> leaves, const Tolerances& tolerances,
+                              Work& work) {
+  const auto complex = body_without(solid, segmentation, leaves, tolerances, work);
+  if (!complex) return std::nullopt;
+  Solid made = SolidOfFaces(solid, segmentation, *complex).run();
   if (made.facets.empty() || !is_closed(made) || volume_m3(made) <= 0 ||
       doubled_edges_of(made) > doubled_edges_of(solid) ||
       slivers_of(made, tolerances.weld_m) > slivers_of(solid, tolerances.weld_m))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
@@ -13,10 +14,11 @@ namespace oriel::detail {
 /// what leaves do not touch stays as it is. Facets name no polygons. `solid` is the one that was
 /// segmented, or another one in its planes that has the leaves.
 ///
-/// Nothing if that is no closed solid, if it touches itself along more edges than before, or if
-/// more facets are narrower than weld_m: where vertices lie off their planes slivers come up, and
-/// the pieces have to be solidified anew.
+/// Nothing if `work` is used up, if that is no closed solid, if it touches itself along more edges
+/// than before, or if more facets are narrower than weld_m: where vertices lie off their planes
+/// slivers come up, and the pieces have to be solidified anew.
 std::optional<Solid> take_out(const Solid& solid, const Segmentation& segmentation,
-                              std::span<const CellId> leaves, const Tolerances& tolerances);
+                              std::span<const CellId> leaves, const Tolerances& tolerances,
+                              Work& work);
 
 }  // namespace oriel::detail

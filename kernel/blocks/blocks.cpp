@@ -209,11 +209,12 @@ double reach_m(const Tolerances& tolerances) {
 class BlockBuilder {
  public:
   BlockBuilder(const Solid& solid, const std::string& name, const BlockOptions& options,
-               const Tolerances& tolerances)
+               const Tolerances& tolerances, Work& work)
       : name_(name),
         options_(options),
         tolerances_(tolerances),
-        view_(solid, options.ground_reach_m, reach_m(tolerances)),
+        work_(work),
+        view_(solid, options.ground_reach_m, reach_m(tolerances), work),
         plan_(view_.arrangement()) {}
 
   Checked<Blocks> run() {
@@ -238,8 +239,9 @@ class BlockBuilder {
     }
     out.issues.push_back(building_issue(
         Severity::error, Code::G406, name_,
-        heights_m_.empty() ? "no block can be made: the building covers no ground"
-                           : "no block can be made: its outline touches itself in a point"));
+        work_.is_used_up()   ? "no block can be made: the work budget is used up"
+        : heights_m_.empty() ? "no block can be made: the building covers no ground"
+                             : "no block can be made: its outline touches itself in a point"));
     return out;
   }
 
@@ -453,6 +455,7 @@ class BlockBuilder {
   const std::string& name_;
   const BlockOptions& options_;
   const Tolerances& tolerances_;
+  Work& work_;
   PlanView view_;
   const Arrangement& plan_;
   std::vector<int> part_of_;  ///< by region; -1: outside
@@ -463,8 +466,8 @@ class BlockBuilder {
 }  // namespace
 
 Checked<Blocks> blocks(const Solid& solid, const std::string& name, const BlockOptions& options,
-                       const Tolerances& tolerances) {
-  return BlockBuilder(solid, name, options, tolerances).run();
+                       const Tolerances& tolerances, Work& work) {
+  return BlockBuilder(solid, name, options, tolerances, work).run();
 }
 
 }  // namespace oriel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
+#include "kernel/base/work.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/model/vec3.h"
@@ -60,11 +61,11 @@ struct Blocks {
 /// The footprint is the union of the ground facets, seen from above; its corners are the solid's
 /// corners and the crossings of its edges, put together within weld_m, of a noisy building
 /// (plane_offset_m above its default) within plane_offset_m. Nothing is simplified but what the
-/// options say. No value and an error G406 if there is no footprint, or if no closed solid
-/// comes of it (outlines that touch in a point).
+/// options say. No value and an error G406 if there is no footprint, if no closed solid comes of it
+/// (outlines that touch in a point), or if `work` is used up.
 /// `name` is the building's in the message. Source: the levels of detail 1.0 to 1.3 of Biljecki,
 /// Ledoux and Stoter 2016; docs/generalisation.md.
 Checked<Blocks> blocks(const Solid& solid, const std::string& name, const BlockOptions& options,
-                       const Tolerances& tolerances = {});
+                       const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel

@@ -13,7 +13,7 @@ constexpr Vec3 kUp{0, 0, 1};
 
 }  // namespace
 
-PlanView::PlanView(const Solid& solid, double ground_reach_m, double reach_m)
+PlanView::PlanView(const Solid& solid, double ground_reach_m, double reach_m, Work& work)
     : solid_(solid), pool_({}, reach_m), is_ground_(solid.facets.size(), 0) {
   const double lowest_m = box_of(solid).min.z;
   ground_m_ = Box::kInfinity;
@@ -35,7 +35,7 @@ PlanView::PlanView(const Solid& solid, double ground_reach_m, double reach_m)
   }
   if (ground_m_ == Box::kInfinity) ground_m_ = lowest_m;
   const PlaneAxes axes(kUp);
-  edges_ = refine(std::move(chords), axes, pool_);
+  edges_ = refine(std::move(chords), axes, pool_, work);
   arrangement_ = std::make_unique<Arrangement>(edges_, axes, pool_);
   trace_regions();
   find_tops();

@@ -15,8 +15,8 @@ namespace oriel::detail {
 /// look up, and of the ground facets. Region 0 is what lies around.
 class PlanView {
  public:
-  /// Points of the plan nearer than `reach_m` are one.
-  PlanView(const Solid& solid, double ground_reach_m, double reach_m);
+  /// Points of the plan nearer than `reach_m` are one. Nothing is seen once `work` is used up.
+  PlanView(const Solid& solid, double ground_reach_m, double reach_m, Work& work);
 
   struct PlanRegion {
     /// The facet seen in it; -1: none.

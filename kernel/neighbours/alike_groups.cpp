@@ -139,7 +139,9 @@ class GroupFinder {
     add_strips(members, origin_m, areas);
     group.roof_m = rounded_to(roof / group.ground_m2, grid_m);
     group.ground_m = rounded_to(group.ground_m, grid_m);
-    group.areas = detail::united(areas, kContact_m);
+    Work work(kWorkBudget * std::ssize(members));
+    group.areas = detail::united(areas, kContact_m, work);
+    if (work.is_used_up()) group.used_up = work.budget();
     for (PlanArea& area : group.areas)
       for (Outline& outline : area)
         for (Vec3& p : outline) p = {rounded_to(p.x, grid_m), rounded_to(p.y, grid_m), 0};

@@ -5,6 +5,7 @@
 #include "kernel/neighbours/neighbours.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,7 +35,8 @@ struct AlikeGroup {
   /// Where the roofs of members with more than half of the ground have parallel ridges: their
   /// heights are means by ground, in the frame of the first member.
   std::optional<GabledRoof> gable{};
-  double grid_m = 0;  ///< what all corners and heights are whole multiples of
+  double grid_m = 0;         ///< what all corners and heights are whole multiples of
+  std::int64_t used_up = 0;  ///< the work budget that uniting the areas used up; 0: they are united
 };
 
 /// What adjoins, and what does not though it touches.

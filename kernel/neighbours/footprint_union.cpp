@@ -22,7 +22,7 @@ constexpr Vec3 kZenith{0, 0, 1};
 /// The border between what some area covers and what none does.
 class UnionTracer {
  public:
-  UnionTracer(std::span<const PlanArea> areas, double reach_m) : pool_({}, reach_m) {
+  UnionTracer(std::span<const PlanArea> areas, double reach_m, Work& work) : pool_({}, reach_m) {
     std::vector<Chord> chords;
     int label = 0;
     for (const PlanArea& area : areas) {
@@ -30,7 +30,7 @@ class UnionTracer {
       ++label;
     }
     const PlaneAxes axes(kZenith);
-    edges_ = refine(std::move(chords), axes, pool_);
+    edges_ = refine(std::move(chords), axes, pool_, work);
     plan_.emplace(edges_, axes, pool_);
     const auto labels = plan_->labels();
     is_covered_.resize(labels.size());
@@ -125,8 +125,8 @@ std::optional<Outline> strip_between(Vec3 a, Vec3 b, Vec3 c, Vec3 d, double gap_
 
 }  // namespace
 
-std::vector<PlanArea> united(std::span<const PlanArea> areas, double reach_m) {
-  return UnionTracer(areas, reach_m).run();
+std::vector<PlanArea> united(std::span<const PlanArea> areas, double reach_m, Work& work) {
+  return UnionTracer(areas, reach_m, work).run();
 }
 
 std::vector<PlanArea> gaps_between(const PlanArea& one, const PlanArea& other, double gap_m,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 
 #include <span>
@@ -12,8 +13,9 @@ using PlanArea = std::vector<Outline>;
 
 /// The union of areas of the plan as connected areas, the largest first. Corners nearer to each
 /// other than `reach_m`, or to an edge than half of it, become one, so that cracks and slivers of
-/// that width are no more. Holes and areas that are thinner than the reach are left out.
-std::vector<PlanArea> united(std::span<const PlanArea> areas, double reach_m);
+/// that width are no more. Holes and areas that are thinner than the reach are left out. None once
+/// `work` is used up.
+std::vector<PlanArea> united(std::span<const PlanArea> areas, double reach_m, Work& work);
 
 /// What would fill the gap between two areas: for each pair of edges that face each other, no more
 /// than `gap_m` apart and with opposite directions (`lean`: sine), the strip between the parts that

@@ -246,14 +246,20 @@ const NeighbourSearch::TouchingGroup* NeighbourSearch::group_of(std::size_t buil
 }
 
 /// Houses around a yard are three at least.
-void NeighbourSearch::find_yards(TouchingGroup& group) const {
+void NeighbourSearch::find_yards(TouchingGroup& group) {
   const Vec3 origin_m = standing_[group.members.front()].origin_m;
   std::vector<detail::PlanArea> grounds;
   for (const std::size_t member : group.members)
     for (auto& piece : moved_ground(*shapes_->at(member), standing_[member].origin_m - origin_m))
       grounds.push_back(std::move(piece));
-  for (const detail::PlanArea& area : detail::united(grounds, kContact_m))
+  Work work(kWorkBudget * std::ssize(group.members));
+  for (const detail::PlanArea& area : detail::united(grounds, kContact_m, work))
     group.yards.insert(group.yards.end(), area.begin() + 1, area.end());
+  if (work.is_used_up())
+    issues_.push_back(used_up(standing_[group.members.front()].id, work.budget(),
+                              "finding the courtyards of its group",
+                              "walls that only its outlines would show to face one count as facing "
+                              "the street"));
 }
 
 std::optional<std::size_t> NeighbourSearch::find(const ShapedBuilding& building,

@@ -98,7 +98,8 @@ class NeighbourSearch {
   /// All that the results depend on, as hexadecimal SHA-256.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
   /// Warnings: E179 for an id that several buildings have, E177 for buildings whose coordinate
-  /// reference system is not that of most, which have no neighbours in others.
+  /// reference system is not that of most, which have no neighbours in others, E502 for a group
+  /// whose courtyards are not known.
   [[nodiscard]] const std::vector<Issue>& issues() const { return issues_; }
 
   /// What stands around a building, which need not be one of them; then it has no `self`.
@@ -137,7 +138,7 @@ class NeighbourSearch {
   [[nodiscard]] std::vector<std::size_t> drop_repeated();
   void tell_systems();
   void unite_touching();
-  void find_yards(TouchingGroup& group) const;
+  void find_yards(TouchingGroup& group);
   [[nodiscard]] std::optional<std::size_t> find(const ShapedBuilding& building,
                                                 const std::string& crs) const;
   [[nodiscard]] const TouchingGroup* group_of(std::size_t building) const;

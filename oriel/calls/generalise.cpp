@@ -296,7 +296,7 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
     if (profile->footprint_edge_m > 0)
       limits = plan_limits(document_, building_, result, options_.neighbours.get());
     auto level = to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation,
-                        *profile, std::move(*made.value), result.tolerances,
+                        *profile, std::move(*made.value), result.tolerances, work_,
                         std::move(limits.may_cover), std::move(limits.is_shared));
     if (!keep(level.issues, out)) return std::nullopt;
     redrawn = std::move(level.value);

@@ -40,8 +40,9 @@ Checked<Redrawn> product(const Line& line, const std::string& level) {
                                     line.interpretation, std::nullopt);
   auto left = generalise(line.solid, line.segmentation, table, line.interpretation, plan);
   REQUIRE(left.value);
+  Work work(kWorkBudget);
   return to_lod(line.building(), line.labelled, line.segmentation, table, line.interpretation,
-                profile, std::move(*left.value));
+                profile, std::move(*left.value), {}, work);
 }
 
 }  // namespace

@@ -60,9 +60,9 @@ struct SheetPiece {
 };
 
 std::vector<SheetPiece> sheet_pieces_of(std::vector<Chord> chords, Vec3 normal,
-                                        detail::VertexPool& pool) {
+                                        detail::VertexPool& pool, Work& work) {
   const detail::PlaneAxes axes(normal);
-  const auto edges = detail::refine(std::move(chords), axes, pool);
+  const auto edges = detail::refine(std::move(chords), axes, pool, work);
   const Arrangement arrangement(edges, axes, pool);
   const auto windings = arrangement.windings();
   std::vector<SheetPiece> pieces(arrangement.region_count());
@@ -92,7 +92,7 @@ class BodySummer {
         sheets_(detail::sheets_of(planes_)),
         facets_(detail::whole_outlines(std::move(bodies.facets), sheets_, pool_)) {}
 
-  CellComplex run() {
+  std::optional<CellComplex> run(Work& work) {
     std::map<PlaneId, std::vector<std::pair<std::size_t, const Facet*>>> facets_in;
     for (std::size_t body = 0; body < facets_.size(); ++body)
       for (const Facet& facet : facets_[body])
@@ -104,14 +104,15 @@ class BodySummer {
       }
       std::vector<Chord> chords;
       for (const auto& [body, facet] : facets) add_chords(*facet, signs_[body], chords);
-      for (SheetPiece& piece : sheet_pieces_of(std::move(chords), normal_of(sheet), pool_))
+      for (SheetPiece& piece : sheet_pieces_of(std::move(chords), normal_of(sheet), pool_, work))
         for (int i = 0; i < std::abs(piece.count); ++i) add(sheet, piece.loops, piece.count > 0);
+      if (work.is_used_up()) return std::nullopt;
     }
     detail::conform(faces_, pool_.vertices(), pool_.reach_m() / 2);
     for (Face& face : faces_)
       for (const Loop& loop : face.loops)
         face.area_m2 += signed_area_m2(pool_.vertices(), loop, normal_of(face.plane));
-    return {pool_.take(), std::move(faces_), 1};
+    return CellComplex(pool_.take(), std::move(faces_), 1);
   }
 
  private:
@@ -156,9 +157,10 @@ class BodySummer {
 
 }  // namespace
 
-CellComplex body_without(const Solid& solid, const Segmentation& segmentation,
-                         std::span<const CellId> leaves, const Tolerances& tolerances) {
-  return BodySummer(signed_bodies(solid, segmentation, leaves), tolerances).run();
+std::optional<CellComplex> body_without(const Solid& solid, const Segmentation& segmentation,
+                                        std::span<const CellId> leaves,
+                                        const Tolerances& tolerances, Work& work) {
+  return BodySummer(signed_bodies(solid, segmentation, leaves), tolerances).run(work);
 }
 
 }  // namespace oriel

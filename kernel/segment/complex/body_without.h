@@ -1,10 +1,12 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/cell_complex.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
 
+#include <optional>
 #include <span>
 
 namespace oriel {
@@ -22,8 +24,9 @@ namespace oriel {
 ///
 /// `solid` may be another one of the same planes, such as what remove_features left of it. Time is
 /// that of the solid's facets and of the sheets that the leaves have facets in. `tolerances` as for
-/// cell_complex().
-CellComplex body_without(const Solid& solid, const Segmentation& segmentation,
-                         std::span<const CellId> leaves, const Tolerances& tolerances = {});
+/// cell_complex(). Nothing once `work` is used up.
+std::optional<CellComplex> body_without(const Solid& solid, const Segmentation& segmentation,
+                                        std::span<const CellId> leaves,
+                                        const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel

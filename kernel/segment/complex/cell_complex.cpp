@@ -119,7 +119,8 @@ class ComplexBuilder {
     const Vec3 normal = segmentation_.planes[plane.index()].normal;
     work.add(std::ssize(segmentation_.cells) + kStepsPerChord * std::ssize(chords));
     if (work.is_used_up()) return {};
-    std::vector<Face> faces = faces_of_sheet(plane, normal, std::move(chords), owners_, pool_);
+    std::vector<Face> faces =
+        faces_of_sheet(plane, normal, std::move(chords), owners_, pool_, work);
     for (const Face& face : faces)
       for (const Loop& loop : face.loops) work.add(kStepsPerChord * std::ssize(loop));
     return faces;

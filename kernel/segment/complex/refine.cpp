@@ -39,15 +39,19 @@ std::vector<PlanarEdge> combined(std::vector<Chord> chords) {
   return edges;
 }
 
+/// What an edge takes in a round, and each pair whose boxes overlap.
+constexpr std::int64_t kStepsPerEdge = 16, kStepsPerLook = 4;
+
 /// One round of cutting: finds all vertices that lie on edges and all crossings.
 class Round {
  public:
-  Round(std::span<const PlanarEdge> edges, const PlaneAxes& axes, VertexPool& pool)
-      : edges_(edges), axes_(axes), pool_(pool), cuts_(edges.size()) {
+  Round(std::span<const PlanarEdge> edges, const PlaneAxes& axes, VertexPool& pool, Work& work)
+      : edges_(edges), axes_(axes), pool_(pool), work_(work), cuts_(edges.size()) {
+    work_.add(kStepsPerEdge * std::ssize(edges));
     spans_.reserve(edges.size());
     for (const PlanarEdge& edge : edges) spans_.push_back(span_of(edge));
     sort_along_longer_axis();
-    for (std::size_t i = 0; i < order_.size(); ++i) look_ahead(i);
+    for (std::size_t i = 0; i < order_.size() && !work_.is_used_up(); ++i) look_ahead(i);
   }
 
   [[nodiscard]] bool has_cuts() const { return has_cuts_; }
@@ -62,9 +66,16 @@ class Round {
       std::ranges::sort(cuts, {}, [&](int v) {
         return std::pair{dot(axes_(pool_.at(v)) - span.a, span.b - span.a), v};
       });
-      cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-      cuts.push_back(edge.b);
+      // Two cuts beside each other may be as far apart as the ends: one waits for the next round.
       int from = edge.a;
+      std::erase_if(cuts, [&](int to) {
+        const bool is_kept =
+            to != from && length(axes_(pool_.at(to)) - axes_(pool_.at(from))) < span.length;
+        if (is_kept) from = to;
+        return !is_kept;
+      });
+      cuts.push_back(edge.b);
+      from = edge.a;
       for (const int to : cuts) {
         for (const auto& [label, count] : edge.windings) chords.push_back({from, to, label, count});
         from = to;
@@ -113,6 +124,7 @@ class Round {
     const EdgeInPlane& mine = spans_[e];
     for (std::size_t j = i + 1; j < order_.size(); ++j) {
       const std::size_t other = order_[j];
+      work_.add(1);
       if (begin_of(other) > end_of(e)) return;
       const EdgeInPlane& its = spans_[other];
       if (its.min.y > mine.max.y || mine.min.y > its.max.y || its.min.x > mine.max.x ||
@@ -123,6 +135,7 @@ class Round {
   }
 
   void look_at(std::size_t e, std::size_t f) {
+    work_.add(kStepsPerLook);
     bool has_met = false;
     for (const int v : {edges_[f].a, edges_[f].b}) has_met |= meet_vertex(e, v);
     for (const int v : {edges_[e].a, edges_[e].b}) has_met |= meet_vertex(f, v);
@@ -155,13 +168,11 @@ class Round {
     const Vec3 from = pool_.at(edges_[e].a), to = pool_.at(edges_[e].b);
     const Vec3 point = from + (ea / (ea - eb)) * (to - from);
     auto vertex = pool_.find(point);
-    if (vertex && !(fits(e, *vertex) && fits(f, *vertex))) vertex.reset();
-    if (!vertex) {
-      // Where both meet at an end there is nothing to cut: a vertex in the same place would only be
-      // cut off again, round after round.
-      if (!is_shortened_by(e, axes_(point)) || !is_shortened_by(f, axes_(point))) return;
-      vertex = pool_.add(point);
-    }
+    const bool is_cut = vertex
+                            ? fits(e, *vertex) && fits(f, *vertex)
+                            : is_shortened_by(e, axes_(point)) && is_shortened_by(f, axes_(point));
+    if (!is_cut) return;
+    if (!vertex) vertex = pool_.add(point);
     for (const std::size_t edge : {e, f})
       if (*vertex != edges_[edge].a && *vertex != edges_[edge].b) cut(edge, *vertex);
   }
@@ -178,6 +189,7 @@ class Round {
   std::span<const PlanarEdge> edges_;
   const PlaneAxes& axes_;
   VertexPool& pool_;
+  Work& work_;
   std::vector<EdgeInPlane> spans_;
   std::vector<std::size_t> order_;
   bool is_along_y_ = false;
@@ -187,10 +199,12 @@ class Round {
 
 }  // namespace
 
-std::vector<PlanarEdge> refine(std::vector<Chord> chords, const PlaneAxes& axes, VertexPool& pool) {
+std::vector<PlanarEdge> refine(std::vector<Chord> chords, const PlaneAxes& axes, VertexPool& pool,
+                               Work& work) {
   std::vector<PlanarEdge> edges = combined(std::move(chords));
   while (true) {
-    Round round(edges, axes, pool);
+    Round round(edges, axes, pool, work);
+    if (work.is_used_up()) return {};
     if (!round.has_cuts()) return edges;
     edges = combined(round.chords());
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/vec3.h"
 #include "kernel/segment/complex/vertex_pool.h"
 
@@ -59,9 +60,11 @@ struct PlanarEdge {
 /// half the pool's reach: then what is left and right of an edge is certain in doubles. Where
 /// chords cross the pool gets a vertex, unless one is within reach.
 ///
-/// Ends: a chord is only ever replaced by shorter ones, and a vertex is made only where it shortens
-/// both chords that cross; where they cross at their ends both stay whole. What closed outlines
-/// were before are closed outlines after.
-std::vector<PlanarEdge> refine(std::vector<Chord> chords, const PlaneAxes& axes, VertexPool& pool);
+/// Ends: a chord is only ever replaced by shorter ones, and a vertex is made only where none is
+/// within reach, so that there are no more lengths than pairs of vertices. Chords that cross at
+/// their ends, where the vertex within reach does not shorten both, stay whole. What closed
+/// outlines were before are closed outlines after. Returns no edge once `work` is used up.
+std::vector<PlanarEdge> refine(std::vector<Chord> chords, const PlaneAxes& axes, VertexPool& pool,
+                               Work& work);
 
 }  // namespace oriel::detail

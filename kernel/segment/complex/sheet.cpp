@@ -183,9 +183,9 @@ void put_in_order(Face& face, const PlaneAxes& axes, const VertexPool& pool) {
 }  // namespace
 
 std::vector<Face> faces_of_sheet(PlaneId plane, Vec3 normal, std::vector<Chord> chords,
-                                 Owners& owners, VertexPool& pool) {
+                                 Owners& owners, VertexPool& pool, Work& work) {
   const PlaneAxes axes(normal);
-  const std::vector<PlanarEdge> edges = refine(std::move(chords), axes, pool);
+  const std::vector<PlanarEdge> edges = refine(std::move(chords), axes, pool, work);
   const Arrangement arrangement(edges, axes, pool);
   std::vector<Face> faces = Sheet(arrangement, owners).faces(plane);
   for (Face& face : faces) put_in_order(face, axes, pool);

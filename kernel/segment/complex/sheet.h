@@ -45,7 +45,8 @@ class Slicer {
 
 /// The faces in one plane, without areas: the maximal connected pieces with the same two cells on
 /// either side. `chords` are the outlines of all cells just in front of the plane and just behind.
+/// None once `work` is used up.
 std::vector<Face> faces_of_sheet(PlaneId plane, Vec3 normal, std::vector<Chord> chords,
-                                 Owners& owners, VertexPool& pool);
+                                 Owners& owners, VertexPool& pool, Work& work);
 
 }  // namespace oriel::detail

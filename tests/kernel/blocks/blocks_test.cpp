@@ -15,7 +15,8 @@ using namespace oriel::test;
 namespace {
 
 Blocks blocks_of(const Building& building, const BlockOptions& options = {}) {
-  auto made = blocks(solid_of(building), building.id, options);
+  Work work(kWorkBudget);
+  auto made = blocks(solid_of(building), building.id, options, {}, work);
   REQUIRE(made.value);
   CHECK(is_closed(made.value->solid));
   for (const Plane& plane : made.value->solid.planes)
@@ -85,7 +86,8 @@ TEST_SUITE("kernel/blocks") {
     CHECK(blocks_of(body).solid.facets.size() == 10);
     Tolerances noisy;
     noisy.plane_offset_m = 0.004;
-    const auto made = blocks(solid_of(body), body.id, {}, noisy);
+    Work work(kWorkBudget);
+    const auto made = blocks(solid_of(body), body.id, {}, noisy, work);
     REQUIRE(made.value);
     CHECK(made.value->solid.facets.size() == 6);
     CHECK(volume_m3(made.value->solid) == doctest::Approx(480).epsilon(1e-3));

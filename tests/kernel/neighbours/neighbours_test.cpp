@@ -231,12 +231,16 @@ TEST_SUITE("kernel/neighbours") {
     for (int x = 0; x < 3; ++x)
       for (int y = 0; y < 3; ++y)
         if (x != 1 || y != 1) ring.push_back(square(10.01 * x, 10.01 * y));
-    const auto whole = detail::united(ring, 0.05);
+    Work work;
+    const auto whole = detail::united(ring, 0.05, work);
     REQUIRE(whole.size() == 1);
     CHECK(whole[0].size() == 2);
     CHECK(detail::figure_area_m2(whole[0], {0, 0, 1}) == doctest::Approx(800).epsilon(0.01));
     ring.push_back(square(100, 0));
-    CHECK(detail::united(ring, 0.05).size() == 2);
+    CHECK(detail::united(ring, 0.05, work).size() == 2);
+    Work little(10);
+    CHECK(detail::united(ring, 0.05, little).empty());
+    CHECK(little.is_used_up());
   }
 
   TEST_CASE("the gap between two areas is the strip where they face each other") {

@@ -242,7 +242,8 @@ TEST_SUITE("kernel/segment") {
     // The second one begins beside the first one's begin, nearer than doubles tell from its length.
     const int a = pool.add({0, 0, 0}), b = pool.add({1, 0, 0});
     const int c = pool.add({0, 1e-18, 0}), d = pool.add({0.5, -1, 0});
-    const auto edges = detail::refine({{a, b, 0, 1}, {c, d, 1, 1}}, axes, pool);
+    Work work;
+    const auto edges = detail::refine({{a, b, 0, 1}, {c, d, 1, 1}}, axes, pool, work);
     CHECK(edges.size() == 2);
     CHECK(pool.vertices().size() == 4);
   }

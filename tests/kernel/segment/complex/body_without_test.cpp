@@ -23,6 +23,12 @@ using test::Segmented;
 
 constexpr std::array kBody{CellId{0}};
 
+/// What is left without the leaves of a feature.
+CellComplex left_of(const Segmented& s, FeatureId feature) {
+  Work work;
+  return body_without(s.solid, s.segmentation, cells_of(s.segmentation, feature), {}, work).value();
+}
+
 TEST_SUITE("kernel/segment") {
   TEST_CASE("a body without the leaves of a feature has its volume less and closes") {
     std::size_t compared = 0;
@@ -33,8 +39,7 @@ TEST_SUITE("kernel/segment") {
         for (const FeatureId id : test::all_features(s.segmentation)) {
           const Feature& feature = s.segmentation.features[id.index()];
           if (!feature.node.is_valid()) continue;
-          const CellComplex left =
-              body_without(s.solid, s.segmentation, cells_of(s.segmentation, id));
+          const CellComplex left = left_of(s, id);
           CHECK(left.open_edge_count() == 0);
           CHECK(test::volume_m3(s.segmentation, left, kBody) ==
                 nearly(test::volume_without(s, {id})));
@@ -51,7 +56,7 @@ TEST_SUITE("kernel/segment") {
                                       .add({7, 5, 6}, {8, 6, 8})
                                       .build());
     const FeatureId low = test::feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
-    const CellComplex left = body_without(s.solid, s.segmentation, cells_of(s.segmentation, low));
+    const CellComplex left = left_of(s, low);
     std::set<std::vector<int>> before, after;  // corners of facets
     const auto corners = [](const std::vector<Loop>& loops) {
       std::vector<int> all;
@@ -77,8 +82,7 @@ TEST_SUITE("kernel/segment") {
         open += cell_complex(s.segmentation).open_edge_count() == 0 ? 0 : 1;
         for (const FeatureId id : test::all_features(s.segmentation)) {
           if (!s.segmentation.features[id.index()].node.is_valid()) continue;
-          const CellComplex left =
-              body_without(s.solid, s.segmentation, cells_of(s.segmentation, id));
+          const CellComplex left = left_of(s, id);
           closed += left.open_edge_count() == 0 ? 1 : 0;
           ++compared;
         }
