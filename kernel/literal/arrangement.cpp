@@ -110,6 +110,7 @@ class Arranger {
   /// Cuts all pieces by a plane. False if the work is used up.
   bool insert(int plane) {
     side_.clear();
+    work_.add(std::ssize(points_));
     for (const exact::Rational& point : points_)
       side_.push_back(static_cast<signed char>(exact::side(out_.planes[at(plane)], point)));
     crossing_.clear();

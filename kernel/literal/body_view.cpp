@@ -11,6 +11,13 @@
 
 namespace oriel::literal {
 
+namespace {
+
+/// Words of a set, and reflex edges, that take as long to look at as a region.
+constexpr std::ptrdiff_t kWordsPerStep = 8, kEdgesPerStep = 4;
+
+}  // namespace
+
 BodyView::BodyView(const PlaneArrangement& arrangement, const Bits& body, Work& work)
     : arrangement_(arrangement), work_(work) {
   find_planes(body);
@@ -152,6 +159,7 @@ std::vector<LiteralLump> BodyView::protrusions(int split) {
 std::vector<LiteralLump> BodyView::holes(std::span<const int> splits) {
   Bits space = air_;
   for (const int split : splits) space &= behind_[at(split)];
+  work_.add(std::ssize(splits) * std::ssize(space.words()) / kWordsPerStep);
   mark(space);
   take_endless(space);
   std::vector<LiteralLump> lumps;
@@ -213,6 +221,7 @@ LiteralLump BodyView::lump_of(const std::vector<int>& piece, std::span<const int
 
 bool BodyView::has_reflex_edge(const std::vector<int>& piece) {
   const int mine = lump_of_group_[at(piece[0])];
+  work_.add(std::ssize(reflex_edges_) / kEdgesPerStep);
   return std::ranges::any_of(reflex_edges_, [&](const std::vector<int>& air) {
     return std::ranges::all_of(air, [&](int g) { return lump_of_group_[at(g)] == mine; });
   });

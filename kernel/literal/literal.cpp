@@ -260,6 +260,7 @@ class Literal {
     while (!waiting_.empty() && !work_.is_used_up()) {
       LiteralBody body = std::move(waiting_.back());
       waiting_.pop_back();
+      work_.add(std::ssize(arrangement_.regions));  // its connected pieces
       const int place = static_cast<int>(bodies_.size());
       const bool is_known = is_on_path(body);
       bodies_.push_back(body);
@@ -317,9 +318,11 @@ class Literal {
     for (Bits& body : bodies) waiting_.push_back({std::move(body), parent});
   }
 
-  [[nodiscard]] bool is_on_path(const LiteralBody& body) const {
-    for (int i = body.parent; i >= 0; i = bodies_[at(i)].parent)
+  [[nodiscard]] bool is_on_path(const LiteralBody& body) {
+    for (int i = body.parent; i >= 0; i = bodies_[at(i)].parent) {
+      work_.add(std::ssize(body.regions.words()));
       if (bodies_[at(i)].regions == body.regions) return true;
+    }
     return false;
   }
 
