@@ -225,6 +225,7 @@ class BlockBuilder {
       if (is_by_roof && !options_.is_by_roof) continue;
       divide(is_by_roof, result.is_from_above);
       if (heights_m_.empty()) break;
+      if (!stands_above_ground()) continue;
       Building building = detail::prisms(view_, part_of_, heights_m_);
       building.id = name_;
       auto solid = solidify(building, tolerances_, {Closing::planar});
@@ -241,12 +242,18 @@ class BlockBuilder {
         Severity::error, Code::G406, name_,
         work_.is_used_up()   ? "no block can be made: the work budget is used up"
         : heights_m_.empty() ? "no block can be made: the building covers no ground"
-                             : "no block can be made: its outline touches itself in a point"));
+        : stands_above_ground()
+            ? "no block can be made: its outline touches itself in a point"
+            : "no block can be made: a part of its roof lies no higher than its ground"));
     return out;
   }
 
  private:
   [[nodiscard]] const std::vector<PlanView::PlanRegion>& regions() const { return view_.regions(); }
+
+  [[nodiscard]] bool stands_above_ground() const {
+    return std::ranges::all_of(heights_m_, [&](double top_m) { return top_m > view_.ground_m(); });
+  }
 
   /// Where that makes no closed solid the footprint stays as it is.
   void simplify(Blocks& result) const {

@@ -62,9 +62,9 @@ struct Blocks {
 /// corners and the crossings of its edges, put together within weld_m, of a noisy building
 /// (plane_offset_m above its default) within plane_offset_m. Nothing is simplified but what the
 /// options say. No value and an error G406 if there is no footprint, if no closed solid comes of it
-/// (outlines that touch in a point), or if `work` is used up.
-/// `name` is the building's in the message. Source: the levels of detail 1.0 to 1.3 of Biljecki,
-/// Ledoux and Stoter 2016; docs/generalisation.md.
+/// (outlines that touch in a point), if a top lies no higher than the ground, or if `work` is used
+/// up. `name` is the building's in the message. Source: the levels of detail 1.0 to 1.3 of
+/// Biljecki, Ledoux and Stoter 2016; docs/generalisation.md.
 Checked<Blocks> blocks(const Solid& solid, const std::string& name, const BlockOptions& options,
                        const Tolerances& tolerances, Work& work);
 

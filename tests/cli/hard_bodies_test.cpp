@@ -103,6 +103,10 @@ const std::map<std::string, std::string>& hard_bodies() {
                  "[[[[0,2,3,1]],[[],[4,5,7,6]],[[0,1,5,4]],[[1,3,7,5]],[[3,2,6,7]],[[2,0,4,6]]]]",
                  kCube)},
       {"a cavity in nothing", stream_of("Solid", "[[]," + kShell + "]", kCube)},
+      {"a roof below its ground",
+       stream_of("MultiSurface", "[[[2,5,4,1]],[[4,6,7,5]],[[7,3,0,6]],[[3,2,5,7]],[[3,2,5,7]]]",
+                 "[[0,0,0],[0,-900,0],[-120,-900,0],[0,-900,0],[0,-900,60],[-120,-900,60],"
+                 "[0,0,60],[-120,0,60]]")},
       {"a vertex beyond all numbers",
        stream_of("MultiSurface", "[[[0,1,9223372036854775807]]]", kCube)},
       {"nothing but points in one place",
