@@ -103,6 +103,10 @@ void send_signal_to_worker(pid_t child, int signal) {
     const rlimit limit{around.file_limit, around.file_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (around.memory_limit > 0) {
+    const rlimit limit{around.memory_limit, around.memory_limit};
+    ::setrlimit(RLIMIT_AS, &limit);
+  }
   if (around.cpu_limit_s > 0) {
     const rlimit limit{around.cpu_limit_s, around.cpu_limit_s};
     ::setrlimit(RLIMIT_CPU, &limit);

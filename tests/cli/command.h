@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ struct Surroundings {
   unsigned file_limit = 0;
   /// The seconds of CPU that it may take, then SIGXCPU ends it; 0: any.
   unsigned cpu_limit_s = 0;
+  /// The address space that it may take, in bytes; 0: any.
+  std::size_t memory_limit = 0;
   /// NAME=value, added to the environment.
   std::vector<std::string> environment{};
   /// stderr is a terminal.
