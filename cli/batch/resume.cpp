@@ -154,7 +154,8 @@ void Journal::append(const std::string& text) {
 /// locked until the new one is in its place.
 void Journal::compact(const std::string& state) {
   const std::string path = path_ + ".new";
-  const int old = std::exchange(descriptor_, detail::open_locked(path, O_WRONLY | O_CREAT | O_TRUNC));
+  const int old =
+      std::exchange(descriptor_, detail::open_locked(path, O_WRONLY | O_CREAT | O_TRUNC));
   if (descriptor_ < 0) fail_to_write(path, errno);
   bytes_ = 0;
   if (!done_.empty()) append(line_of("done", to_json(done_)));
