@@ -8,13 +8,12 @@
 #include "cli/terminal/option_values.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/cityjson/object_survey.h"
+#include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/read.h"
 #include "oriel/validate.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -37,8 +36,6 @@ using nlohmann::ordered_json;
 
 /// What --lod says to judge all levels of detail.
 constexpr const char* kAllLods = "all";
-/// CityGML's levels of detail, which no header lists.
-constexpr std::array<const char*, 5> kGmlLods{"0", "1", "2", "3", "4"};
 
 struct ValidateArguments : RunOptions {
   bool is_json = false;
@@ -49,13 +46,15 @@ struct ValidateArguments : RunOptions {
   ValidateOptions options;
 };
 
-/// A building and all that was found about it.
-struct BuildingFindings {
+/// A geometry of a building or of another object, and all that was found about it.
+struct GeometryFindings {
   std::string id;
   std::string lod;
   /// "solid" or "surfaces"; empty for a building that could not be read.
   std::string primitive;
   std::vector<Finding> findings;
+  /// Its number in the object, where that has several of this level of detail.
+  std::optional<std::size_t> number{};
 
   /// It can be told whether other parts overlap it.
   [[nodiscard]] bool is_valid_solid() const { return primitive == "solid" && findings.empty(); }
@@ -71,24 +70,22 @@ class UnjudgedObjects {
       if (kind.ids.size() < kShown && !object.id.empty()) kind.ids.push_back(object.id);
     }
   }
-  /// Without what belongs to a building.
   [[nodiscard]] int count() const {
     int count = 0;
-    for (const auto& [type, kind] : kinds_)
-      if (!is_of_building(type)) count += kind.count;
+    for (const auto& [type, kind] : kinds_) count += kind.count;
     return count;
   }
-  /// A warning E214 for each type, a note of what belongs to a building.
+  /// A warning E214 for each type.
   [[nodiscard]] std::vector<Issue> issues(const std::string& input) const {
     std::vector<Issue> issues;
     for (const auto& [type, kind] : kinds_) {
       Issue issue;
-      issue.severity = is_of_building(type) ? Severity::note : Severity::warning;
+      issue.severity = Severity::warning;
       issue.code = Code::E214;
       issue.sentence = fmt::format(
-          "{} of type {} with geometry {} not checked, only buildings and their parts are{}{}{}",
-          counted(kind.count, "object"), type, agreeing(kind.count, "is", "are"),
-          kind.ids.empty() ? "" : ": ", fmt::join(kind.ids, ", "),
+          "{} of type {} with geometry {} not checked{}{}{}", counted(kind.count, "object"), type,
+          agreeing(kind.count, "is", "are"), kind.ids.empty() ? "" : ": ",
+          fmt::join(kind.ids, ", "),
           std::cmp_less(kind.ids.size(), kind.count) && !kind.ids.empty() ? ", ..." : "");
       issue.place.file = input;
       issues.push_back(std::move(issue));
@@ -98,11 +95,6 @@ class UnjudgedObjects {
 
  private:
   static constexpr std::size_t kShown = 5;
-
-  /// Its solid is judged; what stands on it or in it need not be one.
-  static bool is_of_building(const std::string& type) {
-    return type.starts_with("Building") && type != "Building" && type != "BuildingPart";
-  }
 
   struct Kind {
     int count = 0;
@@ -140,12 +132,13 @@ ordered_json json_of(const Finding& finding) {
   return out;
 }
 
-std::string json_line(const BuildingFindings& found) {
+std::string json_line(const GeometryFindings& found) {
   ordered_json out{{"id", found.id}};
   if (!found.primitive.empty()) {
     out["lod"] = found.lod;
     out["primitive"] = found.primitive;
   }
+  if (found.number) out["geometry"] = *found.number;
   out["valid"] = found.findings.empty();
   out["findings"] = ordered_json::array();
   for (const Finding& finding : found.findings) out["findings"].push_back(json_of(finding));
@@ -153,9 +146,11 @@ std::string json_line(const BuildingFindings& found) {
 }
 
 /// `names_lod`: several levels of detail are judged.
-std::string text_of(const BuildingFindings& found, bool names_lod) {
-  const std::string name = printable(
-      names_lod && !found.lod.empty() ? fmt::format("{} (lod {})", found.id, found.lod) : found.id);
+std::string text_of(const GeometryFindings& found, bool names_lod) {
+  std::string name = found.id;
+  if (names_lod && !found.lod.empty()) name += fmt::format(" (lod {})", found.lod);
+  if (found.number) name += fmt::format(" (geometry {})", *found.number);
+  name = printable(name);
   if (found.findings.empty())
     return fmt::format("{}: valid{}\n", name,
                        found.primitive == "surfaces" ? " as loose surfaces" : "");
@@ -179,14 +174,7 @@ class Validation {
   ExitCode go() {
     if (std::ranges::count(arguments_.inputs, "-") > 1)
       throw CLI::ValidationError("input", "stdin can be read only once: give - once");
-    if (is_of_all_lods() && std::ranges::count(arguments_.inputs, "-") > 0)
-      throw CLI::ValidationError("--lod",
-                                 "all reads its inputs several times, and stdin cannot be");
-    for (const std::string& input : arguments_.inputs)
-      if (is_of_all_lods())
-        read_all_lods(input);
-      else
-        read(input, arguments_.read_options(input));
+    for (const std::string& input : arguments_.inputs) read(input);
     report_emptiness();
     if (has_ended_ || arguments_.out == "-") out_.commit();
     if (!arguments_.sarif.empty()) write_file(arguments_.sarif, sarif_.text());
@@ -207,82 +195,53 @@ class Validation {
 
   [[nodiscard]] bool is_of_all_lods() const { return arguments_.lod == kAllLods; }
 
-  /// Level by level, from the lowest; what has no geometry at one of them is no error.
-  void read_all_lods(const std::string& input) {
-    ReadOptions options = arguments_.read_options(input);
-    options.lod.reset();
-    lods_.clear();
-    is_survey_ = true;
-    read(input, options);
-    is_survey_ = false;
-    for (const std::string& lod : std::set(lods_)) {
-      options.lod = lod;
-      read(input, options);
-    }
-    // Buildings without any geometry, and meshes, have none to go through.
-    options.lod.reset();
-    if (lods_.empty()) read(input, options);
-  }
-
-  void read(const std::string& input, const ReadOptions& options) {
+  void read(const std::string& input) {
     input_ = input;
+    ReadOptions options = arguments_.read_options(input);
+    options.geometries = is_of_all_lods() ? ReadGeometries::all : ReadGeometries::of_level;
+    if (is_of_all_lods()) options.lod.reset();
     UnjudgedObjects unjudged;
     read(input, options, unjudged);
-    if (is_survey_ || !arguments_.selection.is_all() || has_told_.contains(input)) return;
-    has_told_.insert(input);
+    if (!arguments_.selection.is_all()) return;
     unjudged_ += unjudged.count();
     for (const Issue& issue : unjudged.issues(input)) report(issue);
     if (unjudged.count() > 0) raise(ExitCode::set_aside);
   }
 
   void read(const std::string& input, const ReadOptions& options, UnjudgedObjects& unjudged) {
-    ReadOptions noting = options;
-    noting.notes_unread = true;
     try {
       refuse_folder(input);
-      Reader reader(input, noting);
+      Reader reader(input, options);
       for (bool is_first = true;; is_first = false) {
         auto record = reader.next();
         unjudged.add(reader.take_unread());
         has_ended_ |= !record;
         if (!record) return;
         if (record->value) {
-          const ObjectSurvey found = survey(*record->value);
-          unjudged.add(found.unread);
-          if (is_survey_)
-            note_lods(*record->value, found);
-          else
-            judge(*record, found.families);
+          judge(*record);
           continue;
         }
-        if (is_survey_) continue;
         report(record->issues);
         const bool is_line = reader.format() == Format::cityjson_seq && !is_first;
         raise(is_line ? ExitCode::set_aside : ExitCode::input);
         unread_records_ += is_line ? 1 : 0;
       }
     } catch (const InputError& error) {
-      if (is_survey_) return;
       report(with_file_advice(error.issue()));
       raise(ExitCode::input);
     }
   }
 
-  void note_lods(const Document& document, const ObjectSurvey& found) {
-    lods_.insert(found.lods.begin(), found.lods.end());
-    if (document.format == Format::citygml) lods_.insert(kGmlLods.begin(), kGmlLods.end());
-  }
-
-  void judge(const Checked<Document>& record, const std::vector<std::size_t>& families) {
+  void judge(const Checked<Document>& record) {
+    const Document& document = *record.value;
     std::map<std::string, std::vector<Finding>> of_reading;
     for (const Issue& issue : record.issues) {
       found_ids_.insert(issue.place.building);
-      if (is_of_all_lods() && (issue.code == Code::E205 || was_told(issue))) continue;
       if (issue.severity == Severity::error &&
-          !arguments_.selection.takes(issue.place.building, record.value->feature_type))
+          !arguments_.selection.takes(issue.place.building, document.feature_type))
         continue;
       if (issue.severity == Severity::error)
-        add({issue.place.building.empty() ? record.value->name : issue.place.building,
+        add({issue.place.building.empty() ? document.name : issue.place.building,
              "",
              "",
              {finding_of(issue)}});
@@ -291,40 +250,47 @@ class Validation {
       else if (issue.code != Code::E311 && issue.code != Code::E312)  // judged with their places
         report(issue);
     }
-    std::vector<BuildingFindings> judged;
-    std::map<std::size_t, std::vector<std::size_t>> parts;  // of each family, numbers in `judged`
+    std::vector<GeometryFindings> judged;
+    std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> parts;  // in `judged`
     std::vector<const Building*> buildings;
-    for (std::size_t i = 0; i < record.value->buildings.size(); ++i) {
-      const Building& building = record.value->buildings[i];
+    for (std::size_t i = 0; i < document.buildings.size(); ++i) {
+      const Building& building = document.buildings[i];
       found_ids_.insert(building.id);
-      if (!arguments_.selection.takes(building, record.value->feature_type)) continue;
-      judged.push_back(
-          findings_of(building, record.value->format, std::move(of_reading[building.id])));
+      if (!arguments_.selection.takes(building, document.feature_type)) continue;
+      judged.push_back(findings_of(building, document.format, of_reading[building.id]));
+      judged.back().number = number_among_several(document, i);
       buildings.push_back(&building);
-      if (judged.back().is_valid_solid()) parts[families[i]].push_back(judged.size() - 1);
+      const std::size_t family = document.families.empty() ? i : document.families[i];
+      are_buildings_ = are_buildings_ && family != kNoFamily && !judged.back().number;
+      if (judged.back().is_valid_solid() && family != kNoFamily)
+        parts[{family, building.lod}].push_back(judged.size() - 1);
     }
     for (const auto& [family, members] : parts) judge_parts(buildings, members, judged);
-    for (const BuildingFindings& found : judged) add(found);
+    for (const GeometryFindings& found : judged) add(found);
   }
 
-  /// A warning about a building that has no geometry comes at every level of detail.
-  bool was_told(const Issue& issue) {
-    if (issue.severity == Severity::error || issue.code == Code::E314) return false;
-    return !told_.insert(issue.place.file + '\n' + issue.place.building + to_string(issue.code))
-                .second;
+  /// That of a geometry whose object has others of its level of detail.
+  static std::optional<std::size_t> number_among_several(const Document& document, std::size_t i) {
+    const auto is_beside = [&](std::size_t j) {
+      return j < document.buildings.size() &&
+             document.buildings[j].lod == document.buildings[i].lod &&
+             document.source->places[j].object == document.source->places[i].object;
+    };
+    if (!document.source || !(is_beside(i + 1) || is_beside(i - 1))) return std::nullopt;
+    return document.source->places[i].geometry;
   }
 
   /// The solids of a building that are valid by themselves.
   void judge_parts(const std::vector<const Building*>& buildings,
                    const std::vector<std::size_t>& members,
-                   std::vector<BuildingFindings>& judged) const {
+                   std::vector<GeometryFindings>& judged) const {
     std::vector<const Building*> parts;
     for (const std::size_t member : members) parts.push_back(buildings[member]);
     for (PartOverlap& overlap : overlapping_parts(parts, arguments_.options))
       judged[members[overlap.part]].findings.push_back(std::move(overlap.finding));
   }
 
-  BuildingFindings findings_of(const Building& building, Format format,
+  GeometryFindings findings_of(const Building& building, Format format,
                                std::vector<Finding> of_reading) const {
     ValidateOptions options = arguments_.options;
     // A mesh file does not state what it holds.
@@ -343,7 +309,7 @@ class Validation {
     return {building.id, building.lod, is_solid ? "solid" : "surfaces", std::move(findings)};
   }
 
-  void add(const BuildingFindings& found) {
+  void add(const GeometryFindings& found) {
     ++buildings_;
     for (const Finding& finding : found.findings) ++counts_[{finding.code, finding.val3dity}];
     if (!found.findings.empty()) {
@@ -357,7 +323,7 @@ class Validation {
   }
 
   /// For the SARIF log: every finding is an error in the input at hand.
-  void note(const BuildingFindings& found) {
+  void note(const GeometryFindings& found) {
     for (const Finding& finding : found.findings) {
       Issue issue = building_issue(Severity::error, finding.code, found.id,
                                    found.id + ": " + finding.sentence);
@@ -378,11 +344,11 @@ class Validation {
 
   void report_summary() const {
     const auto valid = buildings_ - invalid_;
-    std::string text =
-        fmt::format("{} {} valid",
-                    is_of_all_lods() ? counted_of(valid, buildings_, "geometry", "geometries")
-                                     : counted_of(valid, buildings_, "building"),
-                    agreeing_of(valid, buildings_, "is", "are"));
+    std::string text = fmt::format("{} {} valid",
+                                   is_of_all_lods() || !are_buildings_
+                                       ? counted_of(valid, buildings_, "geometry", "geometries")
+                                       : counted_of(valid, buildings_, "building"),
+                                   agreeing_of(valid, buildings_, "is", "are"));
     const char* separator = "; ";
     for (const auto& [code, count] : counts_) {
       text += fmt::format("{}{} {}", separator, count, to_string(code.first));
@@ -410,10 +376,7 @@ class Validation {
   int unread_records_ = 0;
   int unjudged_ = 0;  ///< objects
   std::set<std::string> found_ids_;
-  std::set<std::string> lods_;      ///< of the input at hand, with --lod all
-  bool is_survey_ = false;          ///< only lods_ are looked for
-  std::set<std::string> told_;      ///< warnings of buildings
-  std::set<std::string> has_told_;  ///< inputs of which is told what was not judged
+  bool are_buildings_ = true;  ///< each was the one geometry of a building
   std::map<std::pair<Code, int>, int> counts_;
 };
 

@@ -88,6 +88,7 @@
   X(E212, 0, "Links that form a cycle") \
   X(E213, 0, "Coordinates in degrees") \
   X(E214, 0, "Geometry that is not checked") \
+  X(E215, 0, "Several geometries at one level of detail") \
   X(E301, 301, "Too few polygons") \
   X(E302, 302, "The shell is not closed") \
   X(E303, 303, "Polygons that do not pair up at an edge") \
@@ -107,6 +108,7 @@
   X(E318, 0, "A repaired solid that is not valid") \
   X(E319, 0, "Faces that are assumed") \
   X(E320, 0, "Installations left out of the solid") \
+  X(E321, 0, "Passed on unchanged and not valid") \
   X(E341, 104, "A ring that crosses itself") \
   X(E342, 201, "Rings that cross") \
   X(E343, 202, "Rings that are the same") \

@@ -3,6 +3,7 @@
 #include "kernel/io/files/format.h"
 #include "kernel/model/building.h"
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@ namespace oriel {
 namespace detail {
 struct CityJsonSource;
 }
+
+inline constexpr std::size_t kNoFamily = static_cast<std::size_t>(-1);
 
 /// One record of a file: a whole CityJSON, OBJ, OFF, PLY or STL file, one line of a CityJSONSeq, or
 /// one Building of a CityGML file. It keeps the text it was read from, so that writing leaves every
@@ -32,6 +35,9 @@ struct Document {
   /// Of a line of a CityJSONSeq: its "id", and the type of the CityObject with that id.
   std::string feature_id{};
   std::string feature_type = "Building";
+  /// With ReadOptions::geometries other than `one`: of each building the number of its family,
+  /// those that parents and children connect; kNoFamily of an object that is no building.
+  std::vector<std::size_t> families{};
 };
 
 /// The line of a CityJSONSeq that a document was read from, without its line end; empty for other

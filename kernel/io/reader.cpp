@@ -47,9 +47,8 @@ struct Reader::State {
       : format(format_to_read(path, options)),
         name{path == "-" ? "stdin" : path, 0},
         input(std::move(path)),
-        cityjson(options.lod, options.joins_installations, options.keeps_emptied),
-        citygml(input, name, std::move(options.lod), options.joins_installations,
-                options.notes_unread) {
+        cityjson(options),
+        citygml(input, name, options) {
     if (options.wants_sha256) input.hash();
   }
 
@@ -83,7 +82,10 @@ std::string Reader::sha256() const { return state_->input.digest(); }
 
 const std::string& Reader::refused_line() const { return state_->cityjson.refused(); }
 
-std::vector<UnreadObject> Reader::take_unread() { return state_->citygml.take_unread(); }
+std::vector<UnreadObject> Reader::take_unread() {
+  return state_->format == Format::citygml ? state_->citygml.take_unread()
+                                           : state_->cityjson.take_unread();
+}
 
 std::optional<Checked<Document>> Reader::next() {
   if (state_->is_done) return std::nullopt;

@@ -13,11 +13,24 @@
 
 namespace oriel {
 
+/// Which geometries become buildings.
+enum class ReadGeometries {
+  /// Of each building one: the first solid of its level of detail, else the first surfaces.
+  one,
+  /// All that the level has, also of objects that are no buildings (of CityJSON; of CityGML those
+  /// that belong to a building): each is a Building of its own. Of such objects the level is their
+  /// own highest, if none is asked for. With Document::families.
+  of_level,
+  /// The same at all levels of detail.
+  all
+};
+
 /// How to read.
 struct ReadOptions {
   /// The level of detail to take, exactly as written in the input. Default: of each building with
   /// its parts the highest that occurs.
   std::optional<std::string> lod;
+  ReadGeometries geometries = ReadGeometries::one;
   /// The format. Default: what the file's name says.
   std::optional<Format> format;
   /// Of CityJSON and CityGML: a BuildingInstallation with a geometry at the level that its building
@@ -31,8 +44,6 @@ struct ReadOptions {
   bool keeps_emptied = false;
   /// What is read is hashed, too.
   bool wants_sha256 = false;
-  /// Of CityGML it is noted what is passed over: Reader::take_unread().
-  bool notes_unread = false;
 };
 
 /// Reads a file record by record, in bounded memory for CityJSONSeq and CityGML.
@@ -73,9 +84,9 @@ class Reader {
   [[nodiscard]] std::string sha256() const;
   /// The last line of a CityJSONSeq that came without a value, as it was read.
   [[nodiscard]] const std::string& refused_line() const;
-  /// With ReadOptions::notes_unread, of CityGML: the objects with geometry that were passed over
-  /// since it was last asked, those besides the buildings up to some place behind the last record,
-  /// at the end of all of the file. Of other formats nothing: survey() has it of each record.
+  /// With ReadOptions::geometries other than `one`: the objects with geometry that were passed over
+  /// since it was last asked: those that have templates only, and of CityGML those besides the
+  /// buildings up to some place behind the last record, at the end all of the file.
   std::vector<UnreadObject> take_unread();
 
  private:

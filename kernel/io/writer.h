@@ -54,9 +54,10 @@ struct WriteOptions {
 ///   it, so that a building's numbers are the same whatever else is in the file. Vertices that
 ///   rounding makes one are one.
 ///   A line of a CityJSONSeq keeps its header's transform.
-/// - With LabelledBuilding::lod that geometry gets this level of detail, and another geometry of
-///   the object with it goes. Of several labelled buildings with one id the first takes the place
-///   of the chosen geometry, the others are appended.
+/// - With LabelledBuilding::lod that geometry gets this level of detail. Then, and with
+///   LabelledBuilding::geometry and without keeps_semantics, other geometries of the object with
+///   its level go. Of several labelled buildings with one id the first takes the place of the
+///   chosen geometry, the others are appended.
 /// - Installations become BuildingInstallation objects, children of their building; one with the
 ///   same id is replaced. With LabelledBuilding::geometry and without keeps_semantics, those of the
 ///   file that only share the polygons of the replaced geometry (`oriel_geometry`) leave, if they

@@ -55,12 +55,11 @@ bool has_geometry(const CityGmlBuilding& building) {
 }  // namespace
 
 struct CityGmlReader::State {
-  State(Input& input, TextName called, std::optional<std::string> lod, bool joins_installations,
-        bool notes)
+  State(Input& input, TextName called, const ReadOptions& options)
       : name(std::move(called)),
-        stream(input, name, notes),
-        cityjson(std::move(lod), joins_installations),
-        notes_unread(notes) {}
+        notes_unread(options.geometries != ReadGeometries::one),
+        stream(input, name, notes_unread),
+        cityjson(options) {}
 
   Checked<Document> read_header();
   Checked<Document> read_member(const XmlNode& member);
@@ -70,9 +69,9 @@ struct CityGmlReader::State {
                  Fault fault) const;
 
   TextName name;
+  bool notes_unread;
   CityGmlStream stream;
   CityJsonReader cityjson;
-  bool notes_unread;
   /// Buildings that have nothing but implicit geometry.
   std::vector<UnreadObject> instances;
   std::optional<SequenceHeader> header;
@@ -84,10 +83,8 @@ struct CityGmlReader::State {
   bool is_done = false;
 };
 
-CityGmlReader::CityGmlReader(Input& input, TextName name, std::optional<std::string> lod,
-                             bool joins_installations, bool notes_unread)
-    : state_(std::make_unique<State>(input, std::move(name), std::move(lod), joins_installations,
-                                     notes_unread)) {}
+CityGmlReader::CityGmlReader(Input& input, TextName name, const ReadOptions& options)
+    : state_(std::make_unique<State>(input, std::move(name), options)) {}
 
 CityGmlReader::~CityGmlReader() = default;
 

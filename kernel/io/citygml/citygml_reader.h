@@ -4,6 +4,7 @@
 #include "kernel/io/document.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/text.h"
+#include "kernel/io/reader.h"
 #include "kernel/io/unread_object.h"
 
 #include <memory>
@@ -18,10 +19,8 @@ namespace oriel::detail {
 /// there.
 class CityGmlReader {
  public:
-  /// `input` must outlive the reader; `lod`, `joins_installations` and `notes_unread` as in
-  /// ReadOptions.
-  CityGmlReader(Input& input, TextName name, std::optional<std::string> lod,
-                bool joins_installations, bool notes_unread);
+  /// `input` must outlive the reader.
+  CityGmlReader(Input& input, TextName name, const ReadOptions& options);
   ~CityGmlReader();
   CityGmlReader(const CityGmlReader&) = delete;
   CityGmlReader& operator=(const CityGmlReader&) = delete;

@@ -20,7 +20,8 @@ namespace oriel::detail {
 /// before its entities are looked at, so that none is ever expanded.
 class CityGmlStream {
  public:
-  /// `input` and `name` must outlive the stream. `notes_unread` as in ReadOptions.
+  /// `input` and `name` must outlive the stream. Only with `notes_unread` take_unread() has
+  /// anything.
   CityGmlStream(Input& input, const TextName& name, bool notes_unread = false);
   ~CityGmlStream();
   CityGmlStream(const CityGmlStream&) = delete;

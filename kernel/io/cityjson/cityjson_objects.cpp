@@ -23,7 +23,8 @@ std::vector<std::size_t> families_of(const std::vector<Relative>& members) {
     return i;
   };
   std::unordered_map<std::string_view, std::size_t> number_of;
-  for (std::size_t i = 0; i < members.size(); ++i) number_of.try_emplace(members[i].id, i);
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (members[i].is_building) number_of.try_emplace(members[i].id, i);
   for (std::size_t i = 0; i < members.size(); ++i)
     for (const std::string_view id : members[i].relatives)
       if (const auto found = number_of.find(id); found != number_of.end()) {
@@ -97,14 +98,6 @@ std::optional<std::string> emptied_lod_of(dom::object object) {
   return std::string(lod.value_or(std::string_view()));
 }
 
-/// The number of the family of each entry.
-std::vector<std::size_t> families_of_entries(const std::vector<ObjectEntry>& entries) {
-  std::vector<Relative> members;
-  members.reserve(entries.size());
-  for (const ObjectEntry& entry : entries) members.push_back({entry.id, entry.relatives});
-  return families_of(members);
-}
-
 /// Orders lods by number ("0" < "1.2" < "2" < "2.2"), then by text.
 bool is_lower(std::string_view a, std::string_view b) {
   const auto key = [](std::string_view lod) {
@@ -132,6 +125,8 @@ GeometryChoice choose(const ObjectEntry& entry, Family& family,
                       const std::optional<std::string>& lod) {
   if (entry.fault) return {nullptr, entry.fault, Severity::error};
   if (entry.emptied_lod && (!lod || *lod == *entry.emptied_lod || entry.geometries.empty()))
+    return {};
+  if (!entry.is_building && (family.lods.empty() || (lod && !family.lods.contains(*lod))))
     return {};
   if (family.lods.empty()) {
     if (std::exchange(family.was_reported, true)) return {};
@@ -204,7 +199,16 @@ std::vector<InstallationEntry> list_installations(dom::object objects,
   return installations;
 }
 
-std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods) {
+std::vector<std::size_t> families_of(const std::vector<ObjectEntry>& entries) {
+  std::vector<Relative> members;
+  members.reserve(entries.size());
+  for (const ObjectEntry& entry : entries)
+    members.push_back({entry.id, entry.relatives, entry.is_building});
+  return families_of(members);
+}
+
+std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods,
+                                      ListedObjects listed) {
   std::vector<ObjectEntry> entries;
   std::unordered_set<std::string_view> ids;
   std::size_t number = 0;
@@ -217,13 +221,14 @@ std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods)
                      fmt::format("is {}; expected a CityObject", found_kind(field.value))};
     else if (!type)
       entry.fault = {Code::E201, "has no 'type', or one that is not a text"};
-    else if (*type != "Building" && *type != "BuildingPart")
+    else if (entry.is_building = type == "Building" || type == "BuildingPart";
+             !entry.is_building && listed == ListedObjects::buildings)
       continue;
     else if (!ids.insert(field.key).second)
       entry.fault = {Code::E207, "the id occurs twice in 'CityObjects'; the first one is read"};
     else
       entry.fault = list_geometries(*object, has_number_lods, entry);
-    if (object) list_relatives(*object, entry);
+    if (object && entry.is_building) list_relatives(*object, entry);
     if (object) entry.emptied_lod = emptied_lod_of(*object);
     entries.push_back(std::move(entry));
   }
@@ -232,7 +237,7 @@ std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods)
 
 std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
                                               const std::optional<std::string>& lod) {
-  const std::vector<std::size_t> family_of = families_of_entries(entries);
+  const std::vector<std::size_t> family_of = families_of(entries);
   std::vector<Family> families(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (const GeometryEntry& geometry : entries[i].geometries)

@@ -16,6 +16,8 @@ namespace oriel::detail {
 struct Relative {
   std::string_view id;
   std::vector<std::string_view> relatives;
+  /// Others than buildings are named by nobody.
+  bool is_building = true;
 };
 
 /// The number of the family of each: connected by parents and children, directly or over others. It
@@ -31,13 +33,13 @@ struct GeometryEntry {
   std::string lod;
 };
 
-/// A Building or BuildingPart of "CityObjects".
+/// A Building or BuildingPart of "CityObjects", or any other member with geometry.
 struct ObjectEntry {
   /// Its number among all members of "CityObjects".
   std::size_t number = 0;
   std::string_view id;
   std::vector<GeometryEntry> geometries;
-  /// Ids of its parents and children.
+  /// Ids of its parents and children; none of an object that is no building.
   std::vector<std::string_view> relatives;
   /// Why it cannot be read.
   std::optional<Fault> fault;
@@ -45,6 +47,7 @@ struct ObjectEntry {
   bool has_instances = false;
   /// The level of detail that it has lost to a block of its series (`oriel_member_of`).
   std::optional<std::string> emptied_lod{};
+  bool is_building = true;
 };
 
 /// A BuildingInstallation of "CityObjects" whose geometry is its own: not one that shares the
@@ -55,6 +58,9 @@ struct InstallationEntry {
   std::size_t host = 0;
 };
 
+/// The same of entries.
+std::vector<std::size_t> families_of(const std::vector<ObjectEntry>& entries);
+
 /// What to do with an entry: the geometry to read, or a finding, or neither (no geometry, nothing
 /// to say).
 struct GeometryChoice {
@@ -63,10 +69,14 @@ struct GeometryChoice {
   Severity severity = Severity::error;
 };
 
-/// The buildings and parts of `objects`, in the order of the file. Members that are no CityObjects
-/// come too, with their fault (E201, E202); an id that stands twice has the fault E207. Levels of
-/// detail may be numbers, as in CityJSON 1.0, if `has_number_lods`.
-std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods);
+/// Which members of "CityObjects" are listed.
+enum class ListedObjects { buildings, all };
+
+/// The buildings and parts of `objects`, or all members, in the order of the file. Members that are
+/// no CityObjects come too, with their fault (E201, E202); an id that stands twice has the fault
+/// E207. Levels of detail may be numbers, as in CityJSON 1.0, if `has_number_lods`.
+std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods,
+                                      ListedObjects listed = ListedObjects::buildings);
 
 /// The installations among `objects` that stand on one of `entries`, its child or with it as a
 /// parent: in the order of their hosts, those of one host in the order of the file.
@@ -82,8 +92,9 @@ const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod)
 /// of the highest one in the family (objects linked by parents and children); a solid before
 /// surfaces. Without one: an error for the family that has none at the lod asked for (E205), a note
 /// for a member of a family that has it elsewhere, a warning for a family without any geometry
-/// (E209). Entries with a fault get that. One that has lost the level to a block gets nothing,
-/// whatever other levels it has, unless one of these is asked for.
+/// (E209); of other objects than buildings nothing is said. Entries with a fault get that. One that
+/// has lost the level to a block gets nothing, whatever other levels it has, unless one of these is
+/// asked for.
 std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
                                               const std::optional<std::string>& lod);
 

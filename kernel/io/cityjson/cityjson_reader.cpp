@@ -15,10 +15,12 @@
 #include <limits>
 #include <new>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::detail {
 
@@ -166,15 +168,36 @@ void drop_polygons(Building& building, std::size_t first) {
   });
 }
 
-/// Adds the polygons of what stands on the entry `host` to `building`, which was read last. One
+/// Names what an entry has at the level of the geometry that is read besides that (E215).
+std::optional<Fault> unused_geometries(const ObjectEntry& entry, const GeometryEntry& read) {
+  const auto name = [](const GeometryEntry& geometry) {
+    return fmt::format("geometry {} ({})", geometry.number,
+                       as_string(member(geometry.object, "type")).value_or(std::string_view()));
+  };
+  std::vector<std::string> unused;
+  for (const GeometryEntry& geometry : entry.geometries)
+    if (geometry.lod == read.lod && geometry.number != read.number)
+      unused.push_back(name(geometry));
+  if (unused.empty()) return std::nullopt;
+  return Fault{Code::E215,
+               fmt::format("has {} geometries at lod {}: {} is used, not {}", unused.size() + 1,
+                           read.lod, name(read), fmt::join(unused, ", "))};
+}
+
+/// Those that stand on the entry `host`.
+std::span<const InstallationEntry> installations_on(const std::vector<InstallationEntry>& all,
+                                                    std::size_t host) {
+  return std::ranges::equal_range(all, host, {}, &InstallationEntry::host);
+}
+
+/// Adds the polygons of what stands on an entry to `building`, which was read last. One
 /// with a fault is left out, with a warning, and so is one whose polygons the building has all.
-std::vector<GeometryPlace> join_installations(const std::vector<InstallationEntry>& installations,
-                                              std::size_t host, GeometryReader& geometries,
-                                              Building& building, std::vector<Fault>& warnings) {
+std::vector<GeometryPlace> join_installations(std::span<const InstallationEntry> installations,
+                                              GeometryReader& geometries, Building& building,
+                                              std::vector<Fault>& warnings) {
   std::vector<GeometryPlace> places;
   PolygonCorners corners;
-  for (const auto& [object, _] :
-       std::ranges::equal_range(installations, host, {}, &InstallationEntry::host)) {
+  for (const auto& [object, _] : installations) {
     const auto warn = [&](Fault fault) {
       fault.sentence = fmt::format("installation {}: {}", in_quotes(object.id), fault.sentence);
       warnings.push_back(std::move(fault));
@@ -194,10 +217,24 @@ std::vector<GeometryPlace> join_installations(const std::vector<InstallationEntr
       continue;
     }
     for (const Fault& warning : geometries.warnings()) warn(warning);
+    if (auto unused = unused_geometries(object, *geometry)) warn(std::move(*unused));
     building.installations.push_back({std::string(object.id), first, first_vertex});
     places.push_back({object.number, geometry->number});
   }
   return places;
+}
+
+/// `chosen` may be null.
+std::vector<const GeometryEntry*> geometries_to_read(const ObjectEntry& entry,
+                                                     const GeometryEntry* chosen,
+                                                     ReadGeometries which) {
+  std::vector<const GeometryEntry*> taken;
+  if (which == ReadGeometries::one && chosen != nullptr) taken.push_back(chosen);
+  if (which == ReadGeometries::one || entry.fault) return taken;
+  for (const GeometryEntry& geometry : entry.geometries)
+    if (which == ReadGeometries::all || (chosen != nullptr && geometry.lod == chosen->lod))
+      taken.push_back(&geometry);
+  return taken;
 }
 
 /// A building whose geometry left.
@@ -224,28 +261,23 @@ struct CityJsonReader::State {
   dom::parser parser;
   PlainArrays plain;
   bool is_plain = false;  ///< what was parsed is plain.rest()
-  std::optional<std::string> lod;
-  bool joins_installations = false;
-  bool keeps_emptied = false;
+  ReadOptions options;
   SequenceHeader header;
   std::string refused;
   IdSet ids;               ///< of the features so far
   bool is_astray = false;  ///< the last header was not that of the stream
+  std::vector<UnreadObject> unread;
 
   std::optional<Fault> check_feature(dom::object root, const SequenceHeader& of);
   std::optional<Fault> check_header(const std::string& text, const SequenceHeader& of);
   bool parse_plain(dom::object& root);
   std::optional<Issue> parse(const std::string& text, const TextName& name, dom::object& root);
   void read_buildings(const Model& model, const std::string& text, const TextName& name,
-                      Document& document, CityJsonSource& source, std::vector<Issue>& issues) const;
+                      Document& document, CityJsonSource& source, std::vector<Issue>& issues);
 };
 
-CityJsonReader::CityJsonReader(std::optional<std::string> lod, bool joins_installations,
-                               bool keeps_emptied)
-    : state_(std::make_unique<State>()) {
-  state_->lod = std::move(lod);
-  state_->keeps_emptied = keeps_emptied;
-  state_->joins_installations = joins_installations;
+CityJsonReader::CityJsonReader(ReadOptions options) : state_(std::make_unique<State>()) {
+  state_->options = std::move(options);
 }
 
 CityJsonReader::~CityJsonReader() = default;
@@ -253,6 +285,10 @@ CityJsonReader::~CityJsonReader() = default;
 const std::string& CityJsonReader::refused() const { return state_->refused; }
 
 const SequenceHeader& CityJsonReader::header() const { return state_->header; }
+
+std::vector<UnreadObject> CityJsonReader::take_unread() {
+  return std::exchange(state_->unread, {});
+}
 
 bool CityJsonReader::State::parse_plain(dom::object& root) {
   dom::element element;
@@ -277,18 +313,21 @@ std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const
 
 void CityJsonReader::State::read_buildings(const Model& model, const std::string& text,
                                            const TextName& name, Document& document,
-                                           CityJsonSource& source,
-                                           std::vector<Issue>& issues) const {
-  const std::vector<ObjectEntry> entries = list_objects(model.objects, header.version == "1.0");
-  const std::vector<GeometryChoice> choices = choose_geometries(entries, lod);
+                                           CityJsonSource& source, std::vector<Issue>& issues) {
+  const bool is_one = options.geometries == ReadGeometries::one;
+  const std::vector<ObjectEntry> entries =
+      list_objects(model.objects, header.version == "1.0",
+                   is_one ? ListedObjects::buildings : ListedObjects::all);
+  const std::vector<GeometryChoice> choices = choose_geometries(entries, options.lod);
+  std::vector<std::size_t> families;
+  if (!is_one) families = families_of(entries);
   std::vector<InstallationEntry> installations;
-  if (joins_installations)
-    installations = list_installations(model.objects, entries, header.version == "1.0");
+  if (is_one) installations = list_installations(model.objects, entries, header.version == "1.0");
   GeometryReader geometries(*model.vertices, source.transform);
   if (is_plain) geometries.use(plain, text);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ObjectEntry& entry = entries[i];
-    if (keeps_emptied && entry.emptied_lod) {
+    if (options.keeps_emptied && entry.emptied_lod) {
       document.buildings.push_back(emptied_building(entry, source.transform, header.crs));
       source.places.push_back({entry.number, kNoGeometry});
       source.joined.emplace_back();
@@ -299,22 +338,48 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
     };
     if (entry.has_instances)
       report(Severity::note, {Code::E206, "geometry templates (GeometryInstance) are not read"});
-    if (choices[i].finding) report(choices[i].severity, *choices[i].finding);
-    const GeometryEntry* chosen = choices[i].geometry;
-    if (chosen == nullptr) continue;
-    Building building;
-    building.id = entry.id;
-    building.lod = chosen->lod;
-    building.frame.crs = header.crs;
-    if (const auto fault = geometries.read(chosen->object, chosen->kind, building)) {
-      report(Severity::error, *fault);
-      continue;
+    if (!is_one && entry.has_instances && entry.geometries.empty())
+      unread.push_back({std::string(entry.id), "GeometryInstance"});
+    const std::vector<const GeometryEntry*> taken =
+        geometries_to_read(entry, choices[i].geometry, options.geometries);
+    if (choices[i].finding && taken.empty()) report(choices[i].severity, *choices[i].finding);
+    const auto read = [&](const ObjectEntry& of, const GeometryEntry& geometry,
+                          Severity severity) -> std::optional<Building> {
+      Building building;
+      building.id = of.id;
+      building.lod = geometry.lod;
+      building.frame.crs = header.crs;
+      const auto fault = geometries.read(geometry.object, geometry.kind, building);
+      if (!fault) return building;
+      report(severity, *fault);
+      return std::nullopt;
+    };
+    const auto keep_beside = [&](const ObjectEntry& of) {
+      for (const GeometryEntry& geometry : of.geometries)
+        if (geometry.lod == taken[0]->lod && &geometry != taken[0])
+          if (auto rest = read(of, geometry, Severity::warning))
+            source.beside.emplace(entry.id, std::move(*rest));
+    };
+    if (is_one && !taken.empty()) {
+      if (const auto unused = unused_geometries(entry, *taken[0]))
+        report(Severity::warning, *unused);
+      keep_beside(entry);
+      for (const InstallationEntry& installation : installations_on(installations, i))
+        keep_beside(installation.object);
     }
-    std::vector<Fault> warnings = geometries.warnings();
-    source.joined.push_back(join_installations(installations, i, geometries, building, warnings));
-    for (const Fault& warning : warnings) report(Severity::warning, warning);
-    document.buildings.push_back(std::move(building));
-    source.places.push_back({entry.number, chosen->number});
+    for (const GeometryEntry* geometry : taken) {
+      auto building = read(entry, *geometry, Severity::error);
+      if (!building) continue;
+      std::vector<Fault> warnings = geometries.warnings();
+      source.joined.emplace_back();
+      if (options.joins_installations)
+        source.joined.back() =
+            join_installations(installations_on(installations, i), geometries, *building, warnings);
+      for (const Fault& warning : warnings) report(Severity::warning, warning);
+      document.buildings.push_back(std::move(*building));
+      source.places.push_back({entry.number, geometry->number});
+      if (!is_one) document.families.push_back(entry.is_building ? families[i] : kNoFamily);
+    }
   }
   if (entries.empty() && name.line == 0) {
     issues.push_back(error_in(name, {Code::E209, "has no Building and no BuildingPart"}));

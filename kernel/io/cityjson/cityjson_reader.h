@@ -4,10 +4,12 @@
 #include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/io/document.h"
 #include "kernel/io/json/text.h"
+#include "kernel/io/reader.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -23,9 +25,7 @@ struct SequenceHeader {
 /// Reads CityJSON records; keeps simdjson's buffers between them.
 class CityJsonReader {
  public:
-  /// All as in ReadOptions.
-  CityJsonReader(std::optional<std::string> lod, bool joins_installations,
-                 bool keeps_emptied = false);
+  explicit CityJsonReader(ReadOptions options);
   ~CityJsonReader();
   CityJsonReader(const CityJsonReader&) = delete;
   CityJsonReader& operator=(const CityJsonReader&) = delete;
@@ -39,6 +39,9 @@ class CityJsonReader {
 
   /// The last text that came without a value.
   [[nodiscard]] const std::string& refused() const;
+
+  /// Objects with templates only, as Reader::take_unread().
+  std::vector<UnreadObject> take_unread();
 
   /// What the last CityJSON object that was read says to the lines that follow it.
   [[nodiscard]] const SequenceHeader& header() const;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "kernel/io/json/json_scan.h"
+#include "kernel/model/building.h"
 #include "kernel/model/vec3.h"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,10 @@ struct CityJsonSource {
   /// Of each of them the geometries that were joined to it, parallel to Building::installations.
   /// May be shorter.
   std::vector<std::vector<GeometryPlace>> joined{};
+  /// By id of a building what is there at the level at which it was read besides its geometry:
+  /// other geometries of its own, and those of its installations that do not share its polygons
+  /// (Building::id is that of the installation then).
+  std::multimap<std::string, Building> beside{};
 };
 
 }  // namespace oriel::detail

@@ -218,12 +218,16 @@ class CityJsonWriter {
     return geometries.size() - 1;
   }
 
-  /// Which element of "geometry" a labelled building is written to. Geometries that have its level
-  /// of detail already leave, so that an object never has two solids of one level.
+  /// Which element of "geometry" a labelled building is written to. Where it is redrawn, or gets a
+  /// level of detail, other geometries of that level leave, so that an object never has two.
   std::size_t make_room(RawNode& geometries, detail::GeometryPlace place,
                         const LabelledBuilding& labelled) {
     std::size_t number = place.geometry;
-    if (labelled.lod.empty()) return number;
+    const bool is_redrawn = labelled.geometry && !labelled.keeps_semantics;
+    if (labelled.lod.empty() && !is_redrawn) return number;
+    const std::string& level = labelled.lod.empty()
+                                   ? document_.buildings[building_index(labelled.building)].lod
+                                   : labelled.lod;
     if (!has_place_.insert(labelled.building).second) {
       geometries.push_back(R"({"type":"Solid"})");
       number = geometries.size() - 1;
@@ -232,7 +236,7 @@ class CityJsonWriter {
       if (i == number || geometries.is_erased(i) || !RawNode::is_object(geometries.value(i)))
         continue;
       const std::string_view lod = RawNode(geometries.value(i)).value_of("lod");
-      if (detail::lod_name(lod) == labelled.lod) geometries.erase(i);
+      if (detail::lod_name(lod) == level) geometries.erase(i);
     }
     return number;
   }
