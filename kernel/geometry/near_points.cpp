@@ -100,7 +100,7 @@ double distance2(const Point& p, const Point& q) {
 /// Unites the pairs among `members` that are closer than `reach`.
 template <class Point>
 void unite_near(std::span<const Point> points, std::span<const int> members, double reach,
-                DisjointSets& groups) {
+                const std::function<bool(int, int)>& is_pair, DisjointSets& groups) {
   const auto edge = static_cast<std::int64_t>(std::ceil(reach));
   const auto floor_div = [edge](std::int64_t c) {
     return c >= 0 ? c / edge : -((-c + edge - 1) / edge);
@@ -114,20 +114,22 @@ void unite_near(std::span<const Point> points, std::span<const int> members, dou
           buckets.find({home.x + n % 3 - 1, home.y + n / 3 % 3 - 1, home.z + n / 9 - 1});
       if (found == buckets.end()) continue;
       for (const int j : found->second)
-        if (distance2(p, points[at(j)]) < reach * reach) groups.unite(i, j);
+        if (distance2(p, points[at(j)]) < reach * reach && (!is_pair || is_pair(i, j)))
+          groups.unite(i, j);
     }
     buckets[home].push_back(i);
   }
 }
 
 template <class Point>
-Numbers group_near(std::span<const Point> points, double reach) {
+Numbers group_near(std::span<const Point> points, double reach,
+                   const std::function<bool(int, int)>& is_pair) {
   Numbers first(points.size());
   std::iota(first.begin(), first.end(), 0);
   const Numbers candidates = Candidates(points, reach).find();
   if (candidates.empty()) return first;
   DisjointSets groups(points.size());
-  unite_near(points, candidates, reach, groups);
+  unite_near(points, candidates, reach, is_pair, groups);
   for (const int i : candidates) first[at(i)] = groups.find(i);
   return first;
 }
@@ -135,11 +137,12 @@ Numbers group_near(std::span<const Point> points, double reach) {
 }  // namespace
 
 Numbers group_near_points(std::span<const exact::GridPoint> points, double reach) {
-  return group_near(points, reach);
+  return group_near(points, reach, {});
 }
 
-Numbers group_near_points(std::span<const MicrometrePoint> points, double reach) {
-  return group_near(points, reach);
+Numbers group_near_points(std::span<const MicrometrePoint> points, double reach,
+                          const std::function<bool(int, int)>& is_pair) {
+  return group_near(points, reach, is_pair);
 }
 
 }  // namespace oriel::detail

@@ -22,8 +22,8 @@ struct PartedSolid {
 /// stays one facet, if it hangs together in no more than edges. Nothing moves, so volume and
 /// outline are the same; two facets that meet in such an edge may be almost in one plane.
 ///
-/// `written` is what as_written() makes of the solid, `findings` what validate_closely() finds in
-/// that. Nothing if there is a finding of another kind, or if no facet could be parted.
+/// `written` is what as_written() makes of the solid, `findings` what validate() finds in that for
+/// any judge. Nothing if there is a finding of another kind, or if no facet could be parted.
 std::optional<PartedSolid> part_folded(const Solid& solid, const Building& written,
                                        std::span<const Finding> findings);
 

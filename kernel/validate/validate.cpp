@@ -24,6 +24,7 @@ namespace {
 using detail::FindingList;
 using detail::JudgedShell;
 using detail::SnappedBuilding;
+using detail::SnapTies;
 
 /// What the rings of a polygon and its triangles take, but for edges whose boxes overlap.
 constexpr std::int64_t kStepsPerCorner = 16;
@@ -165,35 +166,75 @@ Finding out_of_range(const Building& building) {
   return finding;
 }
 
+std::vector<Finding> validate(const Building& building, const SnappedBuilding& snapped,
+                              const ValidateOptions& options) {
+  const bool is_solid = is_judged_as_solid(building, options.primitive);
+  if (is_solid && !building.is_composite && detail::is_surely_valid_solid(snapped, options))
+    return {};
+  FindingList findings(snapped, options.budget);
+  if (building.polygons.empty()) findings.add(detail::Defect::empty, {}, "it has no polygons");
+  const JudgedShells shells = judge_polygons(snapped, options, findings);
+  if (findings.is_used_up()) return all_of(findings, options.budget);
+  if (is_solid) {
+    const JudgedSolids judged = judge_shells(snapped, shells, findings);
+    if (judged.are_all_good && building.is_composite)
+      detail::judge_composite(snapped, judged.solids, findings);
+  } else if (building.is_composite && options.primitive != ValidateOptions::Primitive::surfaces) {
+    for (const auto& [place, shell] : shells)
+      if (shell) detail::judge(snapped, *shell, true, findings);
+  }
+  return all_of(findings, options.budget);
+}
+
+bool have_same_vertices(const SnappedBuilding& p, const SnappedBuilding& q) {
+  return std::ranges::equal(p.polygons, q.polygons, {}, &detail::SnappedPolygon::rings,
+                            &detail::SnappedPolygon::rings);
+}
+
+/// It has two triangles at most, which are compared in any case.
+bool has_few_triangles(const detail::SnappedPolygon& polygon) {
+  constexpr std::size_t kCornersOfTwo = 4;
+  return polygon.rings.size() == 1 && polygon.rings[0].size() <= kCornersOfTwo;
+}
+
+/// Where polygons without other findings are folded between any two of their triangles.
+std::vector<Finding> folds_in(const SnappedBuilding& snapped, const ValidateOptions& options) {
+  FindingList findings(snapped);
+  for (const detail::SnappedPolygon& polygon : snapped.polygons)
+    if (!has_few_triangles(polygon))
+      detail::judge(snapped, polygon, options, findings, detail::FoldsBetween::any_two);
+  return findings.take();
+}
+
+/// The findings of any judge.
+std::vector<Finding> validate_for_any(const Building& building, const ValidateOptions& options) {
+  const auto as_one = detail::snapped(building, options.snap_m, SnapTies::one);
+  if (!as_one) return {out_of_range(building)};
+  if (as_one->are_all_apart && is_judged_as_solid(building, options.primitive) &&
+      !building.is_composite && detail::is_surely_valid_solid(*as_one, options))
+    return {};
+  const auto as_two = detail::snapped(building, options.snap_m, SnapTies::two);
+  auto findings = validate(building, *as_two, options);
+  if (findings.empty()) findings = folds_in(*as_two, options);
+  if (findings.empty() && !have_same_vertices(*as_one, *as_two))
+    findings = validate(building, *as_one, options);
+  return findings;
+}
+
 }  // namespace
 
 std::vector<Finding> validate(const Building& building, const ValidateOptions& options) {
   if (!building.installations.empty()) return validate(without_installations(building), options);
-  const auto snapped = detail::snapped(building, options.snap_m);
-  if (!snapped) return {out_of_range(building)};
-  if (is_judged_as_solid(building, options.primitive) && !building.is_composite &&
-      detail::is_surely_valid_solid(*snapped, options))
-    return {};
-  FindingList findings(*snapped, options.budget);
-  if (building.polygons.empty()) findings.add(detail::Defect::empty, {}, "it has no polygons");
-  const JudgedShells shells = judge_polygons(*snapped, options, findings);
-  if (findings.is_used_up()) return all_of(findings, options.budget);
-  if (is_judged_as_solid(building, options.primitive)) {
-    const JudgedSolids judged = judge_shells(*snapped, shells, findings);
-    if (judged.are_all_good && building.is_composite)
-      detail::judge_composite(*snapped, judged.solids, findings);
-  } else if (building.is_composite && options.primitive != ValidateOptions::Primitive::surfaces) {
-    for (const auto& [place, shell] : shells)
-      if (shell) detail::judge(*snapped, *shell, true, findings);
-  }
-  return all_of(findings, options.budget);
+  if (options.judge == ValidateOptions::Judge::any) return validate_for_any(building, options);
+  const auto snapped = detail::snapped(building, options.snap_m, SnapTies::as_computed);
+  return snapped ? validate(building, *snapped, options) : std::vector{out_of_range(building)};
 }
 
 std::vector<PartOverlap> overlapping_parts(std::span<const Building* const> parts,
                                            const ValidateOptions& options) {
   if (parts.size() < 2) return {};
   const JoinedParts all = joined(parts);
-  const auto snapped = detail::snapped(all.building, options.snap_m);
+  const auto snapped = detail::snapped(all.building, options.snap_m, SnapTies::as_computed);
   if (!snapped) return {};
   FindingList unheard(*snapped, options.budget), findings(*snapped, options.budget);
   const JudgedShells shells = judge_polygons(*snapped, options, unheard);

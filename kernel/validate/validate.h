@@ -15,8 +15,9 @@ namespace oriel {
 
 /// Tolerances and choices of validate(); the defaults are val3dity's.
 struct ValidateOptions {
-  /// Vertices closer than this are one vertex (val3dity: --snap_tol). At least 1e-6: coordinates
-  /// are judged as whole micrometres of the building's frame.
+  /// Vertices closer than this are one vertex (val3dity: --snap_tol); whether those exactly so far
+  /// apart are closer is decided as in val3dity by the doubles of their coordinates. At least 1e-6:
+  /// all else is judged on whole micrometres of the building's frame.
   double snap_m = 0.001;
   /// How far a point of a polygon may lie from the plane fitted to all of them
   /// (--planarity_d2p_tol).
@@ -33,6 +34,16 @@ struct ValidateOptions {
     surfaces
   };
   Primitive primitive = Primitive::as_stated;
+  /// Whose findings are asked for.
+  enum class Judge {
+    /// val3dity's.
+    val3dity,
+    /// Those of any judge with these tolerances, whatever they leave open: vertices exactly
+    /// `snap_m` apart may be one or two, and any two triangles of a polygon may be those that are
+    /// compared (E345).
+    any
+  };
+  Judge judge = Judge::val3dity;
   /// Pairs of edges and triangles, and corners, that may be looked at; then E502.
   std::int64_t budget = kWorkBudget;
 };
@@ -66,6 +77,8 @@ std::string_view val3dity_name(int number);
 /// composite (501–503) if all its solids are. Loose surfaces are judged up to 208, a
 /// CompositeSurface as a shell that may be open. Joined installations (Building::installations) are
 /// not judged: they are no part of the building's geometry.
+///
+/// With Judge::any what is asked next is only asked if nothing was found.
 ///
 /// Decided exactly on whole micrometres; only 203 and 204 measure in doubles. E506 and E501 for
 /// coordinates that are not finite or a building of more than 4 km: then nothing else is judged.

@@ -6,7 +6,6 @@
 #include "kernel/geometry/near_points.h"
 #include "kernel/model/whole_point.h"
 #include "kernel/solidify/shells/shells.h"
-#include "kernel/validate/validate_closely.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +28,8 @@ std::vector<int> near_vertices(const Building& written) {
   std::ranges::sort(sorted);
   const auto doubles = std::ranges::unique(sorted);
   sorted.erase(doubles.begin(), doubles.end());
-  const detail::Numbers first = detail::group_near_points(sorted, kSurelyApart_m * kPerMetre);
+  const detail::Numbers first =
+      detail::group_near_points(sorted, ValidateOptions{}.snap_m * kPerMetre + 1);
   std::vector<int> group;
   for (const MicrometrePoint& p : points)
     group.push_back(first[at(std::ranges::lower_bound(sorted, p) - sorted.begin())]);

@@ -3,6 +3,7 @@
 #include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan/plan.h"
+#include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/drawing_quality.h"
@@ -213,9 +214,8 @@ std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
   for (Redrawn& redrawn : drawn.levels) {
     if (!redrawn.labelled.geometry) continue;
     pass(Stage::write);
-    OutputCheck found =
-        check_redrawn(document_, building_, *result.solid, *redrawn.labelled.geometry);
-    if (found.fault) fault = std::move(found.fault);
+    if (auto found = check_redrawn(document_, building_, *result.solid, *redrawn.labelled.geometry))
+      fault = std::move(found);
   }
   return fault;
 }
@@ -242,10 +242,9 @@ void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised&
   if (!generalised.removed.empty() || !generalised.changed.empty()) return;
   const auto findings = validate(building_);
   if (findings.empty()) return;
-  if (check_output(document_, building_, *result.solid).fault) {
-    if (building_.is_solid)
-      out.issues.push_back(invalid_before(
-          building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence)));
+  if (check_output(document_, building_, *result.solid)) {
+    out.issues.push_back(invalid_before(
+        building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence)));
     return;
   }
   generalised.is_drawn_anew = true;
@@ -491,6 +490,27 @@ std::optional<GeneralisedBuilding> as_part_of_group(const Building& building,
   return out;
 }
 
+/// Names what stays as it is beside the building's geometry and is not valid (E321).
+void name_invalid_rest(const Document& document, const Building& building,
+                       GeneralisedBuilding& made) {
+  if (!document.source) return;
+  const bool is_redrawn = std::ranges::any_of(
+      made.levels, [](const Redrawn& level) { return level.labelled.geometry.has_value(); });
+  for (auto [at, end] = document.source->beside.equal_range(building.id); at != end; ++at) {
+    const Building& rest = at->second;
+    const bool is_installation = rest.id != building.id;
+    if (is_redrawn && !is_installation) continue;
+    const auto findings = validate(rest);
+    if (findings.empty()) continue;
+    made.issues.push_back(
+        building_issue(Severity::error, Code::E321, building.id,
+                       fmt::format("its {} stays unchanged and is not valid: {} {}",
+                                   is_installation ? fmt::format("installation '{}'", rest.id)
+                                                   : "other geometry of lod " + rest.lod,
+                                   to_string(findings[0].code), findings[0].sentence)));
+  }
+}
+
 /// Of a building that stands for others of its row.
 void add_stood_for(const std::vector<std::string>& ids, GeneralisedBuilding& made) {
   if (ids.empty() || made.levels.empty()) return;
@@ -528,6 +548,7 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
           made.issues.insert(made.issues.end(), more.begin(), more.end());
           add_stood_for(options.groups->stood_for(*result.surroundings), made);
         }
+        name_invalid_rest(document, building, made);
         return made;
       },
       [](const GeneralisedBuilding& made) {

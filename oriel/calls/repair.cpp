@@ -52,17 +52,17 @@ LabelledBuilding output_of(const Building& building, const Repaired& repaired,
 /// not be done.
 std::optional<Issue> make_valid(const Document& document, const Building& building,
                                 const PipelineOptions& options, Repaired& out, Work& work) {
-  const OutputCheck check = check_output(document, building, *out.solid);
-  if (!check.fault) return std::nullopt;
+  const auto fault = check_output(document, building, *out.solid);
+  if (!fault) return std::nullopt;
   Solid mended = *out.solid;
   mend_written(document, building, mended);
-  if (!check_output(document, building, mended).fault) {
+  if (!check_output(document, building, mended)) {
     out.solid = std::move(mended);
     return std::nullopt;
   }
-  if (options.repair.crossings != Crossings::cut) return check.fault;
+  if (options.repair.crossings != Crossings::cut) return fault;
   auto again = repaired_solid(document, building, options.tolerances, options, work);
-  if (!again) return check.fault;
+  if (!again) return fault;
   out.solid = std::move(again->solid);
   out.report = std::move(again->repair);
   return std::nullopt;
@@ -127,8 +127,7 @@ Checked<LabelledBuilding> on_solid(const Document& document, const Building& bui
       redraw(building, labelled, *result.segmentation, result.description.table,
              result.interpretation, std::move(whole), result.tolerances)
           .labelled;
-  const OutputCheck check = check_output(document, building, *drawn.geometry);
-  if (check.fault) return {{}, {*check.fault}};
+  if (const auto fault = check_output(document, building, *drawn.geometry)) return {{}, {*fault}};
   return {std::move(drawn), {}};
 }
 

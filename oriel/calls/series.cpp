@@ -212,7 +212,7 @@ class SeriesDrawer {
       part_written(document_, *building, labelled);
     };
     input.fault_of = [this, building = one.building, result = one.result](const Solid& solid) {
-      return check_redrawn(document_, *building, *result->solid, solid).fault;
+      return check_redrawn(document_, *building, *result->solid, solid);
     };
     return input;
   }
@@ -272,8 +272,7 @@ class SeriesDrawer {
   [[nodiscard]] std::optional<Issue> fault_of(const LeveledBuilding& one,
                                               const SeriesLevel& level) const {
     return check_redrawn(document_, *one.building, *one.result->solid,
-                         *level.redrawn.labelled.geometry)
-        .fault;
+                         *level.redrawn.labelled.geometry);
   }
 
   void add_operations(const LeveledBuilding& one, const WrittenGrid& grid, Series& out) const {

@@ -1,8 +1,7 @@
 #include "oriel/pipeline/faulty_imprints.h"
 
 #include "kernel/base/index.h"
-#include "kernel/io/levels/written_grid.h"
-#include "kernel/validate/validate_closely.h"
+#include "oriel/pipeline/output_check.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +24,7 @@ bool FaultyImprints::add(const Document& document, const Building& building,
     return std::pair(plane.coefficients, plane.offset);
   };
   std::set<std::pair<std::array<std::int64_t, 3>, std::int64_t>> faulty;
-  const auto findings = validate_closely(as_written(document, building, solid));
+  const auto findings = findings_as_written(document, building, solid);
   if (findings.empty()) return false;
   for (const Finding& finding : findings)
     if (finding.polygon >= 0)

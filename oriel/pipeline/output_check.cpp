@@ -3,8 +3,6 @@
 #include "kernel/base/index.h"
 #include "kernel/io/levels/written_grid.h"
 #include "kernel/validate/part_folded.h"
-#include "kernel/validate/validate.h"
-#include "kernel/validate/validate_closely.h"
 #include "kernel/validate/weld_written.h"
 
 #include <algorithm>
@@ -18,8 +16,24 @@
 
 namespace oriel {
 
-OutputCheck check_output(const Document& document, const Building& building, const Solid& solid) {
-  const auto findings = validate_closely(as_written(document, building, solid));
+namespace {
+
+std::vector<Finding> findings_for_any(const Building& written) {
+  ValidateOptions options;
+  options.judge = ValidateOptions::Judge::any;
+  return validate(written, options);
+}
+
+}  // namespace
+
+std::vector<Finding> findings_as_written(const Document& document, const Building& building,
+                                         const Solid& solid) {
+  return findings_for_any(as_written(document, building, solid));
+}
+
+std::optional<Issue> check_output(const Document& document, const Building& building,
+                                  const Solid& solid) {
+  const auto findings = findings_as_written(document, building, solid);
   if (findings.empty()) return {};
   return {building_issue(Severity::error, Code::E318, building.id,
                          fmt::format("the repaired solid is not valid: {} {}",
@@ -61,13 +75,13 @@ void put_parted(PartedSolid parted, LabelledBuilding& labelled) {
 std::optional<PartedSolid> parted_once(const Document& document, const Building& building,
                                        const Solid& solid) {
   const Building written = as_written(document, building, solid);
-  const auto findings = validate_closely(written);
+  const auto findings = findings_for_any(written);
   auto welded = weld_written(solid, written, findings);
   return welded ? std::move(welded) : part_folded(solid, written, findings);
 }
 
 bool can_be_valid(const Document& document, const Building& building, const Solid& own) {
-  return validate(building).empty() || !check_output(document, building, own).fault;
+  return validate(building).empty() || !check_output(document, building, own);
 }
 
 }  // namespace
@@ -77,16 +91,16 @@ Issue invalid_before(const Building& building, const std::string& why) {
                         "is not valid as written, and was not valid in the input: " + why);
 }
 
-OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
-                          const Solid& solid) {
-  OutputCheck check = check_output(document, building, solid);
-  if (!check.fault) return check;
-  std::string why = check.fault->sentence;
+std::optional<Issue> check_redrawn(const Document& document, const Building& building,
+                                   const Solid& own, const Solid& solid) {
+  auto fault = check_output(document, building, solid);
+  if (!fault) return fault;
+  std::string why = fault->sentence;
   why.erase(0, why.find(": ") + 2);
   if (!can_be_valid(document, building, own)) return {invalid_before(building, why)};
-  check.fault->code = Code::G410;
-  check.fault->sentence = "would not be valid as written: " + why;
-  return check;
+  fault->code = Code::G410;
+  fault->sentence = "would not be valid as written: " + why;
+  return fault;
 }
 
 void mend_written(const Document& document, const Building& building, Solid& solid) {
@@ -126,7 +140,7 @@ SolidValidator judge_as_written(const Document& document, const Building& buildi
                                 const Solid& own, bool is_thorough) {
   std::optional<bool> may_be;
   return {[&document, &building, &own, may_be](const Solid& solid) mutable {
-            if (!check_output(document, building, solid).fault) return Fitness::valid;
+            if (!check_output(document, building, solid)) return Fitness::valid;
             if (!may_be) may_be = can_be_valid(document, building, own);
             return *may_be ? Fitness::unfit : Fitness::as_it_came;
           },

@@ -5,25 +5,27 @@
 #include "kernel/io/document.h"
 #include "kernel/model/labelled_building.h"
 #include "kernel/model/solid.h"
+#include "kernel/validate/validate.h"
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace oriel {
 
-/// Whether a solid is valid when it is read again.
-struct OutputCheck {
-  std::optional<Issue> fault;  ///< E318: it is not; the first finding says why
-};
+/// What validate() finds for any judge in what as_written() makes of a solid in the place of the
+/// polygons of `building`, one of the document: in the very numbers that the file gets.
+std::vector<Finding> findings_as_written(const Document& document, const Building& building,
+                                         const Solid& solid);
 
-/// Judges `solid` in the place of the polygons of `building`, one of the document, by
-/// validate_closely() on what as_written() makes of it: the very numbers that the file gets.
-OutputCheck check_output(const Document& document, const Building& building, const Solid& solid);
+/// The first of these as an error E318; nothing if the solid is valid when it is read again.
+std::optional<Issue> check_output(const Document& document, const Building& building,
+                                  const Solid& solid);
 
-/// The same of a solid that was redrawn. Its fault, an error, is a G410; if the building was not
+/// The same of a solid that was redrawn. The error is a G410; if the building was not
 /// valid as it was read, and its own solid, nothing done to it, would not be either, a G413.
-OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
-                          const Solid& solid);
+std::optional<Issue> check_redrawn(const Document& document, const Building& building,
+                                   const Solid& own, const Solid& solid);
 
 /// The error G413.
 Issue invalid_before(const Building& building, const std::string& why);

@@ -44,9 +44,9 @@ std::optional<PipelineResult> cut_solid(const Document& document, const Building
   PipelineResult cut = run_to_solid(building, tolerances, cutting, work, options.observer);
   if (!cut.solid || work.is_used_up()) return std::nullopt;
   cut.tolerances = tolerances;
-  if (!check_output(document, building, *cut.solid).fault) return cut;
+  if (!check_output(document, building, *cut.solid)) return cut;
   mend_written(document, building, *cut.solid);
-  if (!check_output(document, building, *cut.solid).fault) return cut;
+  if (!check_output(document, building, *cut.solid)) return cut;
   return repaired_solid(document, building, tolerances, options, work);
 }
 
@@ -77,7 +77,7 @@ std::optional<PipelineResult> repaired_solid(const Document& document, const Bui
     made.tolerances = tried;
     if (!made.solid) continue;
     mend_written(document, building, *made.solid);
-    if (!check_output(document, building, *made.solid).fault) return made;
+    if (!check_output(document, building, *made.solid)) return made;
   }
   return std::nullopt;
 }

@@ -1,5 +1,6 @@
 #include "kernel/validate/polygons/snapped.h"
 
+#include "kernel/base/index.h"
 #include "kernel/geometry/near_points.h"
 
 #include <algorithm>
@@ -23,10 +24,26 @@ std::optional<MicrometrePoint> on_grid(Vec3 p) {
   return point;
 }
 
+/// For each point of `snapped` the first of those that are one with it; `number_of` has the point
+/// of each vertex.
+Numbers first_of_groups(const Building& building, const SnappedBuilding& snapped,
+                        const std::vector<std::size_t>& number_of, double snap_m, SnapTies ties) {
+  const double snap = std::max(snap_m * kPerMetre, 1.0);
+  if (ties == SnapTies::two) return group_near_points(snapped.points, snap);
+  if (ties == SnapTies::one) return group_near_points(snapped.points, snap + 1);
+  std::vector<Vec3> places(snapped.points.size());
+  for (std::size_t v = 0; v < number_of.size(); ++v)
+    places[number_of[v]] = building.vertices[v] + building.frame.origin_m;
+  return group_near_points(snapped.points, snap + 1, [&](int i, int j) {
+    const Vec3 d = places[at(i)] - places[at(j)];
+    return dot(d, d) < snap_m * snap_m;
+  });
+}
+
 /// Puts a vertex that reading dropped back beside the one it repeats.
 void repeat_in(std::vector<int>& ring, int vertex) {
-  const auto at = std::ranges::find(ring, vertex);
-  if (at != ring.end()) ring.insert(at, vertex);
+  const auto found = std::ranges::find(ring, vertex);
+  if (found != ring.end()) ring.insert(found, vertex);
 }
 
 }  // namespace
@@ -37,7 +54,7 @@ Vec3 SnappedBuilding::metres(int vertex) const {
           static_cast<double>(p[2]) / kPerMetre};
 }
 
-std::optional<SnappedBuilding> snapped(const Building& building, double snap_m) {
+std::optional<SnappedBuilding> snapped(const Building& building, double snap_m, SnapTies ties) {
   std::vector<MicrometrePoint> grid;
   grid.reserve(building.vertices.size());
   for (const Vec3 vertex : building.vertices) {
@@ -51,15 +68,14 @@ std::optional<SnappedBuilding> snapped(const Building& building, double snap_m) 
   std::ranges::sort(out.points);
   const auto doubles = std::ranges::unique(out.points);
   out.points.erase(doubles.begin(), doubles.end());
-  const Numbers first = group_near_points(out.points, std::max(snap_m * kPerMetre, 1.0));
+  std::vector<std::size_t> number_of;
+  number_of.reserve(grid.size());
+  for (const MicrometrePoint& point : grid)
+    number_of.push_back(
+        static_cast<std::size_t>(std::ranges::lower_bound(out.points, point) - out.points.begin()));
+  const Numbers first = first_of_groups(building, out, number_of, snap_m, ties);
   for (std::size_t i = 0; i < first.size() && out.are_all_apart; ++i)
     out.are_all_apart = first[i] == static_cast<int>(i);
-  std::vector<int> number_of;
-  number_of.reserve(grid.size());
-  for (const MicrometrePoint& point : grid) {
-    const auto found = std::ranges::lower_bound(out.points, point) - out.points.begin();
-    number_of.push_back(first[static_cast<std::size_t>(found)]);
-  }
   for (const Polygon& polygon : building.polygons)
     out.polygons.push_back({polygon.source, polygon.body, polygon.shell, polygon.rings});
   for (const RepeatedVertex& repeat : building.repeats)
@@ -68,7 +84,7 @@ std::optional<SnappedBuilding> snapped(const Building& building, double snap_m) 
               repeat.vertex);
   for (SnappedPolygon& polygon : out.polygons)
     for (auto& ring : polygon.rings)
-      for (int& vertex : ring) vertex = number_of[static_cast<std::size_t>(vertex)];
+      for (int& vertex : ring) vertex = first[number_of[static_cast<std::size_t>(vertex)]];
   return out;
 }
 

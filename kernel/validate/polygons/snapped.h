@@ -36,7 +36,15 @@ struct SnappedBuilding {
   [[nodiscard]] Vec3 place(int vertex) const { return metres(vertex) + origin_m; }
 };
 
+/// What becomes of vertices exactly the tolerance apart, to the micrometre.
+enum class SnapTies {
+  /// What val3dity makes of them: their distance is computed from the doubles of the input.
+  as_computed,
+  two,
+  one
+};
+
 /// Nothing if a coordinate is not finite or beyond what predicates are exact for.
-std::optional<SnappedBuilding> snapped(const Building& building, double snap_m);
+std::optional<SnappedBuilding> snapped(const Building& building, double snap_m, SnapTies ties);
 
 }  // namespace oriel::detail

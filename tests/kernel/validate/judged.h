@@ -22,6 +22,12 @@ inline std::string codes_of(const Building& building) {
   return codes;
 }
 
+inline std::vector<Finding> for_any_judge(const Building& building) {
+  ValidateOptions options;
+  options.judge = ValidateOptions::Judge::any;
+  return validate(building, options);
+}
+
 /// The buildings of the CityJSON files of tests/data/errors that can be read, by file name.
 inline std::vector<std::pair<std::string, Building>> error_buildings() {
   std::vector<std::pair<std::string, Building>> found;

@@ -15,7 +15,7 @@ namespace oriel {
 namespace {
 
 bool is_proved(const Building& building) {
-  const auto snapped = detail::snapped(building, ValidateOptions{}.snap_m);
+  const auto snapped = detail::snapped(building, ValidateOptions{}.snap_m, detail::SnapTies::two);
   return snapped && detail::is_surely_valid_solid(*snapped, ValidateOptions{});
 }
 

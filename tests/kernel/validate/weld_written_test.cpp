@@ -1,7 +1,7 @@
 #include "kernel/validate/weld_written.h"
 
 #include "kernel/base/index.h"
-#include "kernel/validate/validate_closely.h"
+#include "tests/kernel/validate/judged.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solidified.h"
 
@@ -105,13 +105,13 @@ TEST_SUITE("kernel/validate") {
     const Solid solid = block_with_bevel(0.001);
     const Building written = in_millimetres(solid);
     CHECK(validate(written).empty());
-    const auto findings = validate_closely(written);
+    const auto findings = test::for_any_judge(written);
     REQUIRE(std::ranges::find(findings, Code::E312, &Finding::code) != findings.end());
     const auto welded = weld_written(solid, written, findings);
     REQUIRE(welded);
     CHECK(welded->solid.facets.size() == 6);
-    CHECK(validate_closely(in_millimetres(welded->solid)).empty());
-    CHECK(validate_closely(in_millimetres(block_with_bevel(0.002))).empty());
+    CHECK(test::for_any_judge(in_millimetres(welded->solid)).empty());
+    CHECK(test::for_any_judge(in_millimetres(block_with_bevel(0.002))).empty());
   }
 
   TEST_CASE("a solid whose corners stay apart in the file is not welded") {
