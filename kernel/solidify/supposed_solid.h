@@ -22,7 +22,7 @@ struct SupposedSolid {
 };
 
 /// The solid of a building that solidify found open, if the faces that are missing follow from the
-/// edges around the holes (missing_faces.h): in one plane each, of any size. All input polygons
+/// edges around the holes (missing/fill.h): in one plane each, of any size. All input polygons
 /// bound it, but for doubles; no supposed face runs through one or lies on one, and all together
 /// are no larger than what is there. Nothing if that cannot be had, or not in `budget` steps:
 /// `open_shell` can.

@@ -24,9 +24,8 @@ struct FilledShell {
   std::vector<Issue> issues;
 };
 
-/// Fills the holes of a welded soup with the faces that are missing (missing_faces.h), if they
-/// close it and none of them runs through another polygon or lies on one. Nothing once `work` is
-/// used up.
+/// Fills the holes of a welded soup with the faces that are missing, if they close it and none of
+/// them runs through another polygon or lies on one. Nothing once `work` is used up.
 std::optional<FilledShell> fill_missing_faces(const Soup& welded, const std::string& building,
                                               const Tolerances& tolerances, Work& work);
 
