@@ -74,7 +74,6 @@ class CutCandidates {
     std::size_t first, last;
   };
   void invalidate(std::size_t k, const RestChange& change);
-  void bring_up_to_date(CutCandidate& candidate, std::size_t number);
   void make_section(CutCandidate& candidate);
   [[nodiscard]] bool prune(CutCandidate& candidate);
   Section& section_of(CutCandidate& candidate);

@@ -15,7 +15,7 @@ struct PatchOptions {
   /// CutCap::is_taken.
   PlaneSide free_side = -1;
   /// Protrusions may also lie on planes of one normal that a third one joins, on a wall and the
-  /// plinth before it, and be flush with a facet (cuts/flush_patches.h).
+  /// plinth before it, and be flush with a facet.
   bool is_natural_order = false;
   /// Patches with more new area than so many times the old one are not asked for; most of them are
   /// left out.
