@@ -3,8 +3,10 @@
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/base/random.h"
-#include "kernel/perturb/corner_noise.h"
-#include "kernel/perturb/triangulated.h"
+#include "kernel/geometry/near_points.h"
+#include "kernel/model/tolerances.h"
+#include "kernel/perturb/micrometres.h"
+#include "kernel/perturb/polygon_triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +17,67 @@
 namespace oriel {
 
 namespace {
+
+/// Vertices closer than this are one corner: what solidify() welds by default.
+constexpr double kCorner_m = Tolerances{}.weld_m;
+
+/// A number without unit: within -1…1, or of standard deviation 1 and within -6…6.
+double draw(NoiseKind kind, Random& random) {
+  if (kind == NoiseKind::uniform) return 2 * random.unit() - 1;
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.unit();
+  return sum;
+}
+
+Vec3 draw_offset(double noise_m, NoiseKind kind, Random& random) {
+  Vec3 offset;
+  offset.x = noise_m * draw(kind, random);
+  offset.y = noise_m * draw(kind, random);
+  offset.z = noise_m * draw(kind, random);
+  return offset;
+}
+
+/// How far noise moves each vertex: those closer than 1 mm, and those that such pairs link, alike.
+/// Drawn in the order of the vertices' places, so that their numbers do not matter.
+std::vector<Vec3> corner_noise(const std::vector<Vec3>& vertices, double noise_m, NoiseKind kind,
+                               Random random) {
+  std::vector<MicrometrePoint> places;
+  for (const Vec3 p : vertices) places.push_back(detail::in_micrometres(p));
+  std::vector<MicrometrePoint> sorted = places;
+  std::ranges::sort(sorted);
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+
+  // The first of a group comes before its others.
+  const detail::Numbers first =
+      detail::group_near_points(sorted, kCorner_m * detail::kMicrometresInMetre);
+  std::vector<Vec3> offsets(sorted.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    offsets[i] = at(first[i]) == i ? draw_offset(noise_m, kind, random) : offsets[at(first[i])];
+
+  std::vector<Vec3> noise;
+  for (const MicrometrePoint& place : places) {
+    const auto found = std::ranges::lower_bound(sorted, place);
+    noise.push_back(offsets[static_cast<std::size_t>(found - sorted.begin())]);
+  }
+  return noise;
+}
+
+/// The triangles of a polygon, each with all that the polygon has besides its rings; the polygon
+/// itself if it is a triangle or cannot be cut. Decided on whole micrometres.
+std::vector<Polygon> triangulated(const std::vector<Vec3>& vertices, const Polygon& polygon,
+                                  Random& random) {
+  if (polygon.rings.empty()) return {polygon};
+  const auto place_of = [&](int vertex) { return detail::in_micrometres(vertices[at(vertex)]); };
+  const auto triangles = detail::polygon_triangles(
+      polygon.rings, area_vector(vertices, polygon.rings[0]), place_of, random);
+  if (triangles.empty()) return {polygon};
+  std::vector<Polygon> out;
+  for (const auto& [a, b, c] : triangles) {
+    Polygon& piece = out.emplace_back(polygon);
+    piece.rings.assign(1, {a, b, c});
+  }
+  return out;
+}
 
 /// What is drawn for one part of a perturbation is a stream of its own.
 constexpr std::uint64_t kMissing = 0x6d697373;
@@ -82,7 +145,7 @@ void cut_into_triangles(Building& building, std::vector<int>& source_before, std
     const Polygon& polygon = building.polygons[i];
     // A polygon is cut the same way whichever others there are.
     Random random(seed, id + static_cast<std::uint64_t>(polygon.source));
-    std::vector<Polygon> triangles = detail::triangulated(building.vertices, polygon, random);
+    std::vector<Polygon> triangles = triangulated(building.vertices, polygon, random);
     for (std::size_t t = 1; t < triangles.size(); ++t) {
       triangles[t].source = static_cast<int>(source_before.size());
       source_before.push_back(polygon.source);
@@ -132,8 +195,8 @@ Perturbed perturbed(const Building& building, const Perturbation& perturbation) 
       Motion(building.frame.origin_m + middle, perturbation.rotation_deg, perturbation.shift_m);
   std::vector<Vec3> noise;
   if (has_noise)
-    noise = detail::corner_noise(building.vertices, perturbation.noise_m, perturbation.noise_kind,
-                                 Random(seed ^ kCorners, id));
+    noise = corner_noise(building.vertices, perturbation.noise_m, perturbation.noise_kind,
+                         Random(seed ^ kCorners, id));
   if (has_noise || !out.motion.is_still())
     move(out.building, Motion(middle, perturbation.rotation_deg, {}), perturbation.shift_m, noise);
   if (perturbation.triangulates && has_noise)
