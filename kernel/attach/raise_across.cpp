@@ -1,25 +1,174 @@
 #include "kernel/attach/raise_across.h"
 
 #include "kernel/attach/clearance.h"
-#include "kernel/attach/foot_line.h"
 #include "kernel/attach/new_facet.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/vec3.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <optional>
 #include <set>
+#include <string>
 #include <utility>
-#include <vector>
 
 namespace oriel {
 
 namespace {
 
-using detail::FootPoint;
+/// A point of the line in which the sides of a block cut a roof.
+struct FootPoint {
+  Vec3 point;
+  bool is_meeting = false;  ///< of three planes
+  /// The side of the block that the line follows from here, and the facet that it is on.
+  int side = 0;
+  FacetId facet{};
+  /// Where it crosses an edge of the roof: the edge as the facet has it that the line comes from.
+  /// (-1, -1) in a corner of the block.
+  std::pair<int, int> edge{-1, -1};
+
+  [[nodiscard]] bool is_crossing() const { return edge.first >= 0; }
+};
+
+/// The line in which the sides of a block cut the facets of a solid that look up, the block on its
+/// left seen from above; it is closed. Begins in the corner between the last side and the first.
+struct FootLine {
+  std::vector<FootPoint> points;
+  /// If there is none.
+  std::string reason;
+};
+
+/// How far a point is in front of a plane.
+double ahead_of(const Plane& plane, Vec3 point) {
+  return dot(plane.normal, point) - plane.offset_m;
+}
+
+/// Facets that are steeper than this (sine from the vertical) are no roofs: 75 degrees.
+constexpr double kRoof = 0.26;
+/// A block has few sides, and no roof so many facets under it.
+constexpr std::size_t kMostPoints = 64;
+
+class FootTracer {
+ public:
+  FootTracer(const Solid& solid, const BlockAcross& block) : solid_(solid), sides_(block.sides) {}
+
+  FootLine run() {
+    if (!find_start()) return {{}, "its outline does not fit into the facet"};
+    while (line_.size() < kMostPoints) {
+      const char* reason = go_on();
+      if (reason != nullptr) return {{}, reason};
+      if (line_.back().side != 0 || line_.back().is_crossing()) continue;
+      // Round to where it began.
+      const bool is_closed =
+          line_.back().facet == line_.front().facet &&
+          length(line_.back().point - line_.front().point) < detail::kLeastEdge_m;
+      line_.pop_back();
+      if (!is_closed) break;
+      return {std::move(line_), {}};
+    }
+    return {{}, "its outline does not close on the roof"};
+  }
+
+ private:
+  [[nodiscard]] const Plane& plane_of(FacetId id) const {
+    return solid_.planes[solid_.facets[id.index()].plane.index()];
+  }
+  [[nodiscard]] const Plane& side(int i) const { return sides_[at(i) % sides_.size()]; }
+  [[nodiscard]] std::optional<Vec3> meeting(const Plane& p, const Plane& q, const Plane& r) const {
+    const auto point = exact::meet(p, q, r);
+    if (!point) return std::nullopt;
+    return exact::to_metres(*point, solid_.grid_m);
+  }
+
+  /// The highest facet that the edge between the last side and the first comes out of.
+  bool find_start() {
+    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
+      const Plane& plane = plane_of({f});
+      if (plane.normal.z <= kRoof) continue;
+      const auto corner = meeting(plane, sides_.back(), sides_.front());
+      if (!corner ||
+          !detail::contains(detail::outlines_of(solid_.vertices, solid_.facets[at(f)].loops),
+                            plane.normal, *corner))
+        continue;
+      if (!line_.empty() && line_[0].point.z >= corner->z) continue;
+      line_ = {{*corner, true, 0, {f}, {-1, -1}}};
+    }
+    return !line_.empty();
+  }
+
+  /// The next point of the line; a reason if there is none.
+  const char* go_on() {
+    const FootPoint here = line_.back();
+    const Plane& plane = plane_of(here.facet);
+    const Vec3 along = normalised(cross(plane.normal, side(here.side).normal));
+    const Plane& next = side(here.side + 1);
+    const double towards = dot(next.normal, along);
+    const double to_corner = towards > 0 ? -ahead_of(next, here.point) / towards : Box::kInfinity;
+    double to_edge = Box::kInfinity;
+    std::pair<int, int> crossed{-1, -1};
+    for (const Loop& loop : solid_.facets[here.facet.index()].loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::pair edge{loop[i], loop[(i + 1) % loop.size()]};
+        const double way = way_out(here, plane.normal, along, edge);
+        if (way >= to_edge) continue;
+        to_edge = way;
+        crossed = edge;
+      }
+    if (std::abs(to_edge - to_corner) < detail::kLeastEdge_m) return "its corner lies on an edge";
+    return to_corner < to_edge ? turn(here, next) : cross_over(here, crossed);
+  }
+
+  /// How far along the line it is to an edge over which it leaves the facet.
+  [[nodiscard]] double way_out(const FootPoint& here, Vec3 normal, Vec3 along,
+                               std::pair<int, int> edge) const {
+    if (here.is_crossing() && edge == std::pair{here.edge.second, here.edge.first})
+      return Box::kInfinity;
+    const Vec3 a = solid_.vertices[at(edge.first)].point;
+    const Vec3 b = solid_.vertices[at(edge.second)].point;
+    const double of_a = ahead_of(side(here.side), a), of_b = ahead_of(side(here.side), b);
+    if ((of_a > 0) == (of_b > 0) || dot(cross(normal, b - a), along) >= 0) return Box::kInfinity;
+    const double way = dot(a + of_a / (of_a - of_b) * (b - a) - here.point, along);
+    return way > 0 ? way : Box::kInfinity;
+  }
+
+  const char* turn(const FootPoint& here, const Plane& next) {
+    const auto corner = meeting(plane_of(here.facet), side(here.side), next);
+    if (!corner) return "its outline does not fit into the facet";
+    const int count = static_cast<int>(sides_.size());
+    line_.push_back({*corner, true, (here.side + 1) % count, here.facet, {-1, -1}});
+    return nullptr;
+  }
+
+  const char* cross_over(const FootPoint& here, std::pair<int, int> edge) {
+    if (edge.first < 0) return "its outline does not close on the roof";
+    const auto beyond = facet_with(edge.second, edge.first);
+    if (!beyond || plane_of(*beyond).normal.z <= kRoof)
+      return "its outline does not fit into the facet";
+    const Vec3 a = solid_.vertices[at(edge.first)].point;
+    const Vec3 b = solid_.vertices[at(edge.second)].point;
+    const auto met = meeting(plane_of(here.facet), plane_of(*beyond), side(here.side));
+    const bool is_meeting = met && detail::distance_to_segment(*met, a, b) < detail::kLeastEdge_m;
+    const double of_a = ahead_of(side(here.side), a), of_b = ahead_of(side(here.side), b);
+    const Vec3 on_edge = exact::on_grid(a + of_a / (of_a - of_b) * (b - a), solid_.grid_m);
+    line_.push_back({is_meeting ? *met : on_edge, is_meeting, here.side, *beyond, edge});
+    return nullptr;
+  }
+
+  [[nodiscard]] std::optional<FacetId> facet_with(int a, int b) const {
+    for (int f = 0; f < std::ssize(solid_.facets); ++f)
+      for (const Loop& loop : solid_.facets[at(f)].loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+          if (loop[i] == a && loop[(i + 1) % loop.size()] == b) return FacetId{f};
+    return std::nullopt;
+  }
+
+  const Solid& solid_;
+  const std::vector<Plane>& sides_;
+  std::vector<FootPoint> line_;
+};
 
 /// A point of a facet's loop: a vertex of the solid, or where the foot's line enters the facet or
 /// leaves it.
@@ -35,7 +184,7 @@ class AcrossRaiser {
       : solid_(solid), block_(block), clearance_(clearance) {}
 
   Attached run() {
-    detail::FootLine line = detail::foot_line(solid_, block_);
+    FootLine line = FootTracer(solid_, block_).run();
     if (!line.reason.empty()) return refused(line.reason.c_str());
     line_ = std::move(line.points);
     if (const char* reason = why_not()) return refused(reason);
@@ -64,7 +213,7 @@ class AcrossRaiser {
   [[nodiscard]] const Plane& top() const { return block_.lid ? *block_.lid : block_.sides.back(); }
   [[nodiscard]] bool is_inside(Vec3 p) const {
     return std::ranges::all_of(block_.sides,
-                               [&](const Plane& side) { return detail::ahead_of(side, p) < 0; });
+                               [&](const Plane& side) { return ahead_of(side, p) < 0; });
   }
 
   const char* why_not() {
@@ -113,8 +262,7 @@ class AcrossRaiser {
     for (std::size_t k = 0; k < line_.size(); ++k) {
       if (!line_[k].is_crossing()) continue;
       for (const int v : {line_[k].edge.first, line_[k].edge.second})
-        if (is_inside(point(v)) && detail::ahead_of(top(), point(v)) > -detail::kLeastEdge_m)
-          return false;
+        if (is_inside(point(v)) && ahead_of(top(), point(v)) > -detail::kLeastEdge_m) return false;
     }
     for (std::size_t i = 0; i < block_.sides.size(); ++i) {
       if (!has_upright_edge(i)) continue;
@@ -124,9 +272,8 @@ class AcrossRaiser {
       tops_.push_back(exact::to_metres(*met, solid_.grid_m));
     }
     return std::ranges::all_of(line_, [&](const FootPoint& here) {
-      const bool is_on_top =
-          !block_.lid && (detail::ahead_of(top(), here.point) > -detail::kLeastEdge_m);
-      return is_on_top || detail::ahead_of(top(), here.point) < -detail::kLeastEdge_m;
+      const bool is_on_top = !block_.lid && (ahead_of(top(), here.point) > -detail::kLeastEdge_m);
+      return is_on_top || ahead_of(top(), here.point) < -detail::kLeastEdge_m;
     });
   }
 
@@ -136,7 +283,7 @@ class AcrossRaiser {
       if (!line_[k].is_crossing()) continue;
       const FacetId from = line_[before(k)].facet;
       const Plane& plane = solid_.planes[facet(from).plane.index()];
-      if (detail::ahead_of(plane, after(k).point) <= 0) return false;
+      if (ahead_of(plane, after(k).point) <= 0) return false;
     }
     return true;
   }
