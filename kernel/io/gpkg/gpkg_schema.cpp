@@ -1,6 +1,6 @@
 #include "kernel/io/gpkg/gpkg_schema.h"
 
-#include "kernel/io/gpkg/crs_definition.h"
+#include "kernel/io/files/proj_pointers.h"
 #include "kernel/model/description/attributes.h"
 
 #include <algorithm>
@@ -13,6 +13,22 @@
 namespace oriel::detail {
 
 namespace {
+
+/// What defines a reference system in a GeoPackage: its well-known text (OGC 01-009) on one line,
+/// as PROJ knows the system by its organization and number; "undefined" where PROJ does not know
+/// it. Source: OGC 12-128r18, table 3.
+std::string crs_definition(const std::string& organization, int number) {
+  const PjContextPointer context(proj_context_create());
+  if (!context) return "undefined";
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  const PjPointer crs(proj_create_from_database(context.get(), organization.c_str(),
+                                                std::to_string(number).c_str(), PJ_CATEGORY_CRS, 0,
+                                                nullptr));
+  if (!crs) return "undefined";
+  constexpr std::array<const char*, 2> kOptions{"MULTILINE=NO", nullptr};
+  const char* text = proj_as_wkt(context.get(), crs.get(), PJ_WKT1_GDAL, kOptions.data());
+  return text == nullptr ? "undefined" : text;
+}
 
 /// When all tables were changed: the same bytes whenever the file is made.
 constexpr const char* kTime = "1970-01-01T00:00:00.000Z";
