@@ -118,34 +118,49 @@ void LumpFinder::reach(int c) {
     lump_.regions.push_back(region);
 }
 
-/// The outline of the piece of a facet that the chord from crossing c bounds.
+/// Visits the outline of the piece of a facet that the chord from crossing c bounds. Returns false
+/// if the outline does not lead back to c over edges that the section crosses, as of a folded
+/// facet.
 template <class Visit>
-void LumpFinder::visit_piece(int c, Visit visit) const {
+bool LumpFinder::visit_piece(int c, Visit visit) const {
   const int start = c;
+  std::size_t chords = 0;
   do {
     visit(section_.crossings[at(c)].at);
     c = section_.crossings[at(c)].next;
     visit(section_.crossings[at(c)].at);
-    EdgeId e = body_.next(body_.twin(section_.crossings[at(c)].edge));
-    for (; is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
+    const EdgeId first = body_.next(body_.twin(section_.crossings[at(c)].edge));
+    EdgeId e = first;
+    for (; is_up(body_.target(e)); e = body_.next(e)) {
+      visit(body_.at(e));
+      if (body_.next(e) == first) return false;
+    }
     visit(body_.at(e));
     c = crossing_of(e);
-  } while (c != start);
+  } while (c >= 0 && c != start && ++chords < section_.crossings.size());
+  return c == start;
 }
 
-/// The outline of the piece below the chord.
+/// The same of the piece below the chord.
 template <class Visit>
-void LumpFinder::visit_lower_piece(int c, Visit visit) const {
+bool LumpFinder::visit_lower_piece(int c, Visit visit) const {
   const int start = c;
+  std::size_t chords = 0;
   do {
     visit(section_.crossings[at(c)].at);
-    EdgeId e = body_.next(section_.crossings[at(c)].edge);
-    for (; !is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
+    const EdgeId first = body_.next(section_.crossings[at(c)].edge);
+    EdgeId e = first;
+    for (; !is_up(body_.target(e)); e = body_.next(e)) {
+      visit(body_.at(e));
+      if (body_.next(e) == first) return false;
+    }
     visit(body_.at(e));
     const int end = crossing_of(body_.twin(e));
+    if (end < 0) return false;
     visit(section_.crossings[at(end)].at);
     c = previous_[at(end)];
-  } while (c != start);
+  } while (c >= 0 && c != start && ++chords < section_.crossings.size());
+  return c == start;
 }
 
 /// The pieces of the facet on both sides of the chord have area.
@@ -168,16 +183,18 @@ bool LumpFinder::has_sound_pieces(int c) const {
     visit_points([&](Vec3 p) { points.push_back(p); });
     return area > -kThin_m * perimeter(points);
   };
-  const auto upper = [&](auto visit) { visit_piece(c, visit); };
-  const auto lower = [&](auto visit) { visit_lower_piece(c, visit); };
+  bool is_whole = true;
+  const auto upper = [&](auto visit) { is_whole = visit_piece(c, visit) && is_whole; };
+  const auto lower = [&](auto visit) { is_whole = visit_lower_piece(c, visit) && is_whole; };
   const double upper_area = area_of(upper);
+  if (!is_whole) return false;
   // In a facet with one loop and one chord the other piece is what is left.
   const bool is_only_chord = scratch_.last_chord_in[f] == c && next_in_facet_[at(c)] < 0;
   if (is_only_chord && body_.facet(f).loops.size() == 1 && upper_area > 0 &&
       body_.area(f) - upper_area >
           -kThin_m * length(section_.crossings[at(section_.crossings[at(c)].next)].at - start))
     return true;
-  return is_sound(upper_area, upper) && is_sound(area_of(lower), lower);
+  return is_sound(upper_area, upper) && is_sound(area_of(lower), lower) && is_whole;
 }
 
 /// What a directed piece of a facet's outline adds to a third of offset × area.
@@ -224,8 +241,8 @@ void LumpFinder::tie_loop_to_piece(BodyFacetId facet, LoopId loop) {
     const bool has_piece = crossing_stamp_[at(c)] == stamp_;
     if (has_piece == has_loop) continue;
     Outline piece;
-    visit_piece(c, [&](Vec3 p) { piece.push_back(p); });
-    if (!contains({&piece, 1}, normal, body_.at(first))) continue;
+    const bool is_whole = visit_piece(c, [&](Vec3 p) { piece.push_back(p); });
+    if (!is_whole || !contains({&piece, 1}, normal, body_.at(first))) continue;
     push(has_piece ? first : section_.crossings[at(c)].edge);
     return;
   }

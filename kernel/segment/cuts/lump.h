@@ -54,9 +54,9 @@ class LumpFinder {
   void tie_loop_to_piece(BodyFacetId facet, LoopId loop);
   [[nodiscard]] bool is_wholly_up(LoopId loop) const;
   template <class Visit>
-  void visit_piece(int crossing, Visit visit) const;
+  bool visit_piece(int crossing, Visit visit) const;
   template <class Visit>
-  void visit_lower_piece(int crossing, Visit visit) const;
+  bool visit_lower_piece(int crossing, Visit visit) const;
   [[nodiscard]] bool is_up(PointId point) const {
     return (ranks_[point] - plane_rank_) * section_.direction > 0;
   }
