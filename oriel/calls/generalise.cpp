@@ -294,8 +294,10 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
     PlanLimits limits;
     if (profile->footprint_edge_m > 0)
       limits = plan_limits(document_, building_, result, options_.neighbours.get());
+    // What is left of the drawing's work may be nothing; blocks have as much for themselves.
+    Work drawing(work_.budget());
     auto level = to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation,
-                        *profile, std::move(*made.value), result.tolerances, work_,
+                        *profile, std::move(*made.value), result.tolerances, drawing,
                         std::move(limits.may_cover), std::move(limits.is_shared));
     if (!keep(level.issues, out)) return std::nullopt;
     redrawn = std::move(level.value);
