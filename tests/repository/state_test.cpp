@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::string> kKeepers{
     {"kernel/base/name.cpp", "texts of names, behind a lock"},
     {"kernel/base/log.cpp", "loggers, behind a lock"},
-    {"kernel/io/gltf/meshopt.cpp", "versions of the library, chosen once, behind a lock"},
+    {"kernel/io/gltf/glb_buffers.cpp", "versions of the library, chosen once, behind a lock"},
     {"kernel/io/files/leftovers.cpp", "files of killed runs, behind a lock"},
     {"kernel/io/files/partial_files.cpp", "open outputs, of the one thread that writes"},
     {"studio/server/shared_work.cpp",
