@@ -5,7 +5,6 @@
 #include "kernel/base/random.h"
 #include "kernel/geometry/near_points.h"
 #include "kernel/model/tolerances.h"
-#include "kernel/perturb/micrometres.h"
 #include "kernel/perturb/polygon_triangles.h"
 
 #include <algorithm>
@@ -17,6 +16,15 @@
 namespace oriel {
 
 namespace {
+
+constexpr double kMicrometresInMetre = 1e6;
+
+/// The nearest whole number of micrometres.
+std::int64_t in_micrometres(double metres) { return std::llround(metres * kMicrometresInMetre); }
+
+MicrometrePoint in_micrometres(Vec3 metres) {
+  return {{in_micrometres(metres.x), in_micrometres(metres.y), in_micrometres(metres.z)}};
+}
 
 /// Vertices closer than this are one corner: what solidify() welds by default.
 constexpr double kCorner_m = Tolerances{}.weld_m;
@@ -42,14 +50,13 @@ Vec3 draw_offset(double noise_m, NoiseKind kind, Random& random) {
 std::vector<Vec3> corner_noise(const std::vector<Vec3>& vertices, double noise_m, NoiseKind kind,
                                Random random) {
   std::vector<MicrometrePoint> places;
-  for (const Vec3 p : vertices) places.push_back(detail::in_micrometres(p));
+  for (const Vec3 p : vertices) places.push_back(in_micrometres(p));
   std::vector<MicrometrePoint> sorted = places;
   std::ranges::sort(sorted);
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
 
   // The first of a group comes before its others.
-  const detail::Numbers first =
-      detail::group_near_points(sorted, kCorner_m * detail::kMicrometresInMetre);
+  const detail::Numbers first = detail::group_near_points(sorted, kCorner_m * kMicrometresInMetre);
   std::vector<Vec3> offsets(sorted.size());
   for (std::size_t i = 0; i < sorted.size(); ++i)
     offsets[i] = at(first[i]) == i ? draw_offset(noise_m, kind, random) : offsets[at(first[i])];
@@ -67,7 +74,7 @@ std::vector<Vec3> corner_noise(const std::vector<Vec3>& vertices, double noise_m
 std::vector<Polygon> triangulated(const std::vector<Vec3>& vertices, const Polygon& polygon,
                                   Random& random) {
   if (polygon.rings.empty()) return {polygon};
-  const auto place_of = [&](int vertex) { return detail::in_micrometres(vertices[at(vertex)]); };
+  const auto place_of = [&](int vertex) { return in_micrometres(vertices[at(vertex)]); };
   const auto triangles = detail::polygon_triangles(
       polygon.rings, area_vector(vertices, polygon.rings[0]), place_of, random);
   if (triangles.empty()) return {polygon};
