@@ -3,14 +3,12 @@
 #include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/pack/names.h"
-#include "interpret/surfaces/surface_decider.h"
 #include "interpret/surfaces/surface_rules.h"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <optional>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -18,11 +16,118 @@ namespace oriel {
 
 namespace {
 
+using rules::ExprId;
 using rules::HostKind;
 using rules::Pack;
 using rules::SurfaceRule;
 using rules::SurfaceRules;
 using rules::Truth;
+
+/// A part of the condition of a rule: all of them must hold.
+struct SurfaceConjunct {
+  ExprId id = rules::kNoExpr;
+  /// What it reads is all measured.
+  bool is_final = true;
+};
+
+/// Finds for rows of a table the first rule that holds.
+class SurfaceDecider {
+ public:
+  /// `more`: what is measured later; null: nothing.
+  SurfaceDecider(const SurfaceRules& surfaces, const SurfaceTable& table,
+                 const MoreAttributes* more = nullptr);
+
+  /// For each of the rows, in their order, the number of the rule, or -1.
+  [[nodiscard]] std::vector<int> decide(std::span<const int> rows);
+  /// Those of the rows for which a value that is not measured may matter. The rules before those
+  /// that read it do not hold for them and are not asked again.
+  [[nodiscard]] const std::vector<int>& undecided() const { return undecided_; }
+  /// More is measured than when the rows were decided.
+  void look_again();
+
+ private:
+  void add_conjuncts(ExprId id, std::vector<SurfaceConjunct>& conjuncts) const;
+  [[nodiscard]] bool reads_pending(ExprId id) const;
+  [[nodiscard]] int decide(int row);
+  [[nodiscard]] Truth all_hold(const std::vector<SurfaceConjunct>& conjuncts, int row);
+
+  const SurfaceRules& surfaces_;
+  const MoreAttributes* more_;
+  rules::EvaluationContext context_;
+  rules::Evaluator evaluator_;
+  /// By rule.
+  std::vector<std::vector<SurfaceConjunct>> conjuncts_;
+  std::size_t first_rule_ = 0, first_doubtful_ = 0;
+  std::vector<int> undecided_;
+};
+
+SurfaceDecider::SurfaceDecider(const SurfaceRules& surfaces, const SurfaceTable& table,
+                               const MoreAttributes* more)
+    : surfaces_(surfaces),
+      more_(more),
+      context_(surfaces.pack, table),
+      evaluator_(surfaces.pack, context_),
+      conjuncts_(surfaces.rules.size()) {
+  for (std::size_t r = 0; r < conjuncts_.size(); ++r)
+    for (const ExprId id : surfaces.rules[r].when) add_conjuncts(id, conjuncts_[r]);
+}
+
+void SurfaceDecider::add_conjuncts(ExprId id, std::vector<SurfaceConjunct>& conjuncts) const {
+  const rules::Expr& expr = surfaces_.pack.code[static_cast<std::size_t>(id)];
+  if (expr.op == rules::Op::all_of)
+    for (const ExprId part : expr.args) add_conjuncts(part, conjuncts);
+  else
+    conjuncts.push_back({id, !reads_pending(id)});
+}
+
+bool SurfaceDecider::reads_pending(ExprId id) const {
+  if (more_ == nullptr) return false;
+  const rules::Expr& expr = surfaces_.pack.code[static_cast<std::size_t>(id)];
+  if (expr.op == rules::Op::attribute || expr.op == rules::Op::flag)
+    return more_->is_pending(kSurfaceAttributes[static_cast<std::size_t>(expr.index)]);
+  return std::ranges::any_of(expr.args, [&](ExprId arg) { return reads_pending(arg); });
+}
+
+void SurfaceDecider::look_again() {
+  first_rule_ = first_doubtful_;
+  for (auto& of_rule : conjuncts_)
+    for (SurfaceConjunct& conjunct : of_rule) conjunct.is_final = !reads_pending(conjunct.id);
+}
+
+std::vector<int> SurfaceDecider::decide(std::span<const int> rows) {
+  undecided_.clear();
+  first_doubtful_ = conjuncts_.size();
+  std::vector<int> deciding;
+  deciding.reserve(rows.size());
+  for (const int row : rows) deciding.push_back(decide(row));
+  return deciding;
+}
+
+int SurfaceDecider::decide(int row) {
+  int deciding = -1;
+  bool is_doubtful = false;
+  for (std::size_t r = first_rule_; r < conjuncts_.size() && deciding < 0; ++r) {
+    const Truth holds = all_hold(conjuncts_[r], row);
+    if (holds == Truth::yes) deciding = static_cast<int>(r);
+    if (holds != Truth::unknown) continue;
+    is_doubtful = true;
+    first_doubtful_ = std::min(first_doubtful_, r);
+  }
+  if (is_doubtful) undecided_.push_back(row);
+  return deciding;
+}
+
+/// What is unknown for good does not hold.
+Truth SurfaceDecider::all_hold(const std::vector<SurfaceConjunct>& conjuncts, int row) {
+  const rules::FeatureRows rows = rules::rows_of(row);
+  Truth least = Truth::yes;
+  for (const SurfaceConjunct& conjunct : conjuncts) {
+    const Truth answer = evaluator_.truth(conjunct.id, rows);
+    if (answer == Truth::no || (conjunct.is_final && answer == Truth::unknown)) return Truth::no;
+    least = std::min(least, answer);
+  }
+  return least;
+}
 
 /// What faces that look up are on a part of that label, or null if nothing is said.
 const std::string* top_of(const Pack& pack, const std::string& label) {
@@ -67,7 +172,7 @@ std::vector<int> all_rows(const SurfaceTable& table) {
 /// what is decided while values are missing stays so when they are filled in.
 std::vector<int> decide_with_more(const SurfaceRules& surfaces, const SurfaceTable& table,
                                   std::span<const int> rows, MoreAttributes& more) {
-  rules::SurfaceDecider decider(surfaces, table, &more);
+  SurfaceDecider decider(surfaces, table, &more);
   std::vector<int> deciding(table.rows(), -1);
   std::vector<int> open(rows.begin(), rows.end());
   for (;;) {
@@ -149,7 +254,7 @@ std::vector<SurfaceVerdict> verdicts_of(const Pack& pack, const SurfaceTable& ta
 }
 
 std::vector<int> decide_all(const Pack& pack, const SurfaceTable& table) {
-  if (pack.surfaces) return rules::SurfaceDecider(*pack.surfaces, table).decide(all_rows(table));
+  if (pack.surfaces) return SurfaceDecider(*pack.surfaces, table).decide(all_rows(table));
   return std::vector<int>(table.rows(), -1);
 }
 
