@@ -2,7 +2,6 @@
 
 #include "interpret/experiment/learn/folds.h"
 #include "interpret/experiment/learn/objective.h"
-#include "interpret/experiment/learn/search/knife_edges.h"
 #include "interpret/experiment/parallel.h"
 #include "interpret/experiment/sample.h"
 #include "interpret/pack/rule_base.h"
@@ -19,6 +18,22 @@
 #include <vector>
 
 namespace oriel {
+
+/// A param whose value stands so close to the flip of labels that a small change moves the
+/// objective much.
+struct KnifeEdge {
+  std::string param;
+  std::string unit;
+  double value = 0;
+  /// The nearest value at which the objective has moved, and how far that is as a share of the
+  /// param's range.
+  double flip = 0;
+  double distance_share = 0;
+  /// By how much the objective changes at most within a small change; below 0: it falls.
+  double change = 0;
+  /// The objects that are found or lost there.
+  std::size_t objects = 0;
+};
 
 struct LearnOptions {
   Objective objective;
