@@ -2,11 +2,14 @@
 
 #include "interpret/editing/cursor/word_at.h"
 #include "interpret/editing/layers.h"
-#include "interpret/editing/renaming.h"
+#include "interpret/language/findings.h"
+#include "interpret/pack/loader.h"
+#include "interpret/pack/names.h"
 #include "interpret/pack/read/read_pack.h"
 #include "interpret/plan/profile.h"
 #include "interpret/testing/test_file.h"
 #include "interpret/yaml/yaml_tree.h"
+#include "kernel/model/description/feature_table.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -20,6 +23,93 @@
 namespace oriel {
 
 namespace {
+
+bool is_of_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// "a param".
+std::string sort_in_words(rules::WordSort sort) {
+  switch (sort) {
+    case rules::WordSort::param:
+      return "param";
+    case rules::WordSort::class_name:
+      return "class";
+    case rules::WordSort::macro:
+      return "macro";
+    case rules::WordSort::relation:
+      return "relation";
+    case rules::WordSort::group:
+      return "group";
+    case rules::WordSort::fixture:
+      return "fixture";
+    default:
+      return "rule";
+  }
+}
+
+void add_dollar_places(const std::string& text, const std::string& name,
+                       std::vector<TextSpan>& places) {
+  const std::string wanted = "$" + name;
+  for (std::size_t at = text.find(wanted); at != std::string::npos;
+       at = text.find(wanted, at + 1)) {
+    const std::size_t end = at + wanted.size();
+    if (end == text.size() || !is_of_name(text[end])) places.push_back({at + 1, end});
+  }
+}
+
+/// The sort under which the word is declared.
+rules::WordSort declared_sort(const rules::PackWord& word) {
+  return word.sort == rules::WordSort::value_name ? rules::WordSort::macro : word.sort;
+}
+
+/// Why the word can not be renamed, or nothing: only what the top layer alone declares can be.
+std::string refuse_renaming(const rules::PackLayers& layers, const rules::PackWord& word) {
+  const rules::WordSort sort = declared_sort(word);
+  const bool is_own = std::ranges::any_of(layers.names(), [&](const rules::DeclaredName& declared) {
+    return declared.sort == sort && declared.name == word.name && declared.layer == &layers.top();
+  });
+  for (const rules::DeclaredName& declared : layers.names())
+    if (declared.sort == sort && declared.name == word.name && declared.layer != &layers.top())
+      return fmt::format("'{}' is {} in {}: rename it there", word.name,
+                         is_own ? "also stated" : "stated", declared.layer->source.file());
+  return is_own ? "" : fmt::format("'{}' is not a name that this pack states", word.name);
+}
+
+/// Why it cannot be called `name`, or nothing.
+std::string refuse_name(const rules::PackLayers& layers, const rules::PackWord& word,
+                        const std::string& name) {
+  const rules::WordSort sort = declared_sort(word);
+  if (name == word.name) return "";
+  if (layers.find(sort, name) != nullptr)
+    return fmt::format("there is a {} '{}' already", sort_in_words(sort), name);
+  if (sort == rules::WordSort::rule || sort == rules::WordSort::entry)
+    return rules::is_rule_id(name) ? "" : "an id is names joined by points, such as door.ground";
+  if (sort == rules::WordSort::macro && find_attribute(name))
+    return fmt::format("there is an attribute '{}'", name);
+  const rules::Source source("", name);
+  rules::Findings findings(source);
+  rules::YamlNode node;
+  node.kind = rules::YamlNode::Kind::scalar;
+  node.text = name;
+  if (rules::expect_name(node, "a " + sort_in_words(sort), findings)) return "";
+  return findings.spanned().front().sentence;
+}
+
+/// The places of the top layer of `layers` that name what `word` names, ascending: those in
+/// expressions, keys and lists, and of params also `$name` in comments and reasons.
+std::vector<TextSpan> places_of(const rules::PackLayers& layers, rules::WordSort sort,
+                                const std::string& name) {
+  const rules::PackLayer& top = layers.top();
+  std::vector<TextSpan> places;
+  for (const rules::PackWord& word : rules::pack_words(top.tree, top.source))
+    if (rules::is_same_name(layers, word, sort, name))
+      places.push_back({word.span.begin, word.span.end});
+  if (sort == rules::WordSort::param) add_dollar_places(top.source.text(), name, places);
+  std::ranges::sort(places);
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
 
 constexpr std::string_view kYamlExtension = ".yaml";
 constexpr std::string_view kTestExtension = ".test.yaml";
@@ -173,12 +263,12 @@ bool is_same_file(const std::string& p, const std::string& q) {
 class Renamer {
  public:
   Renamer(const rules::PackWord& word, const std::string& name)
-      : word_(word), sort_(rules::declared_sort(word)), name_(name) {}
+      : word_(word), sort_(declared_sort(word)), name_(name) {}
 
   void add(const rules::PackLayers& of_file) {
     const rules::Source& source = of_file.top().source;
     FileEdits changes{source.file(), source.text(), {}};
-    for (const TextSpan where : rules::places_of(of_file, sort_, word_.name))
+    for (const TextSpan where : places_of(of_file, sort_, word_.name))
       changes.edits.push_back({where, name_});
     if (!changes.edits.empty()) renaming_.files.push_back(std::move(changes));
   }
@@ -274,7 +364,7 @@ std::vector<OutlineItem> EditedPack::outline() const {
 std::optional<TextSpan> EditedPack::renameable(std::size_t offset) const {
   const rules::PackLayers& layers = state_->read_layers();
   const auto word = rules::word_at(layers, offset);
-  if (!word || !rules::refuse_renaming(layers, *word).empty()) return std::nullopt;
+  if (!word || !refuse_renaming(layers, *word).empty()) return std::nullopt;
   return TextSpan{word->span.begin, word->span.end};
 }
 
@@ -283,8 +373,8 @@ Renaming EditedPack::rename(std::size_t offset, const std::string& name,
   const rules::PackLayers& layers = state_->read_layers();
   const auto word = rules::word_at(layers, offset);
   if (!word) return {{}, "there is no name here that could be changed"};
-  std::string refusal = rules::refuse_renaming(layers, *word);
-  if (refusal.empty()) refusal = rules::refuse_name(layers, *word, name);
+  std::string refusal = refuse_renaming(layers, *word);
+  if (refusal.empty()) refusal = refuse_name(layers, *word, name);
   if (!refusal.empty()) return {{}, std::move(refusal)};
   Renamer renamer(*word, name);
   renamer.add(layers);
