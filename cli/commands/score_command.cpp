@@ -4,7 +4,6 @@
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
 #include "cli/output/safe_cells.h"
-#include "cli/output/score_tables.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
@@ -24,6 +23,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -33,6 +33,61 @@
 namespace oriel::cli {
 
 namespace {
+
+std::string cell_of(double ratio) { return std::isnan(ratio) ? "" : fmt::format("{}", ratio); }
+
+void append_row(std::string& out, std::string first, std::string second, const ClassScore& counts) {
+  append_csv_line(out,
+                  {std::move(first), std::move(second), std::to_string(counts.true_positives),
+                   std::to_string(counts.false_positives), std::to_string(counts.false_negatives),
+                   cell_of(counts.precision()), cell_of(counts.recall()), cell_of(counts.f1())});
+}
+
+/// A line for each building and class, then one for all its classes together ("all"), as CSV:
+/// building, class, tp, fp, fn, precision, recall, f1. Ratios without a denominator are empty.
+std::string per_building_csv(const std::map<std::string, Score>& buildings) {
+  std::string text = "building,class,tp,fp,fn,precision,recall,f1\n";
+  for (const auto& [building, score] : buildings) {
+    ClassScore all;
+    for (const auto& [label, counts] : score.classes) {
+      append_row(text, building, label, counts);
+      all += counts;
+    }
+    append_row(text, building, "all", all);
+  }
+  return text;
+}
+
+/// A line for each point: class, threshold, tp, fp, fn, precision, recall, f1; class by class, the
+/// highest threshold first.
+std::string curve_csv(const std::vector<CurvePoint>& curve) {
+  std::vector<const CurvePoint*> points;
+  points.reserve(curve.size());
+  for (const CurvePoint& point : curve) points.push_back(&point);
+  std::ranges::stable_sort(points, {}, [](const CurvePoint* point) { return point->label; });
+  std::string text = "class,threshold,tp,fp,fn,precision,recall,f1\n";
+  for (const CurvePoint* point : points)
+    append_row(text, point->label, fmt::format("{}", point->threshold), point->counts);
+  return text;
+}
+
+/// A line for each match, in their order (docs/formats.md): building, feature, name, label, score,
+/// rule, truth, class, iou, outcome. What is not there is empty.
+std::string joined_csv(const std::vector<ObjectMatch>& matches) {
+  std::string text = "building,feature,name,label,score,rule,truth,class,iou,outcome\n";
+  const Prediction no_prediction;
+  const ExpectedObject no_object;
+  for (const ObjectMatch& match : matches) {
+    const Prediction& found = match.prediction ? *match.prediction : no_prediction;
+    const ExpectedObject& object = match.truth ? *match.truth : no_object;
+    append_csv_line(
+        text, {match.truth ? object.building : found.building, found.id, found.name, found.label,
+               found.label.empty() ? "" : fmt::format("{}", found.score), found.rule, object.id,
+               object.label, match.iou > 0 ? fmt::format("{}", match.iou) : "",
+               to_string(match.outcome)});
+  }
+  return text;
+}
 
 struct ScoreArguments : RunOptions, RulesChoice {
   bool is_of_surfaces = false;

@@ -2,24 +2,243 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/inputs/input_files.h"
 #include "cli/batch/inputs/neighbours.h"
+#include "cli/batch/rules_choice.h"
+#include "cli/batch/run_options.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
-#include "cli/output/tiles_output.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
+#include "cli/tiles/tiles_page.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
+#include "kernel/io/files/output_file.h"
+#include "kernel/io/files/partial_files.h"
 #include "oriel/rules.h"
+#include "oriel/tiles.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
 namespace {
+
+/// What `oriel tiles` is to write.
+struct TilesArguments : RunOptions, RulesChoice {
+  std::string folder;
+  TilesetOptions tileset;
+  std::optional<Profile> profile;
+  /// index.html, which shows the tiles, is written, too.
+  bool has_viewer = false;
+};
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBuildingsName = "buildings.part";
+constexpr const char* kTilesetName = "tileset.json";
+constexpr const char* kTilesName = "tiles";
+constexpr const char* kPageName = "index.html";
+
+/// What a run may leave in its folder: the tiles it has made, the buildings, under whatever name
+/// for the time being, and the page.
+bool is_leftover(const fs::path& path) {
+  const std::string name = path.filename();
+  if (name == kPageName) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {}) == tiles_page();
+  }
+  return name == kTilesName || name.starts_with(kBuildingsName) ||
+         name.starts_with(std::string(kTilesetName) + ".") ||
+         name.starts_with(std::string(kPageName) + ".");
+}
+
+class Tiler final : public ProducingCommand {
+ public:
+  Tiler(const TilesArguments& arguments, const RuleBase& rules, BatchRunner& runner, Report& report)
+      : arguments_(arguments), rules_(rules), runner_(runner), report_(report) {}
+  /// Nothing is left of a run that came to nothing, but for what it may go on with.
+  ~Tiler() override {
+    file_.reset();
+    if (has_made_folder_) remove(arguments_.folder);  // which fails if anything is in it
+  }
+  Tiler(const Tiler&) = delete;
+  Tiler& operator=(const Tiler&) = delete;
+
+  void name_files(NamedFiles& files) const override {
+    files.add_input("--rules", arguments_.rules);
+    files.add_output("-o", path_of(kTilesetName));
+    files.add_output("-o", path_of(kBuildingsName));
+    if (arguments_.has_viewer) files.add_output("-o", path_of(kPageName));
+  }
+  void begin(std::size_t input) override {
+    if (input == 0 || !file_) open(!runner_.is_last_run());
+  }
+  Product make(std::size_t /*input*/, const Document& document,
+               const std::vector<PipelineResult>& results, Timings& timings) const override {
+    Product product;
+    SeriesOptions options;
+    static_cast<LabelOptions&>(options) = arguments_.label_options(timings.observer());
+    options.profile = arguments_.profile;
+    options.has_only_levels = true;
+    const std::vector<double>& scales = arguments_.tileset.scales;
+    const Series made = series(document, results, rules_, scales, options);
+    product.issues = made.issues;
+    timings.measure(Stage::write, [&] {
+      for (const TileBuilding& building :
+           tile_buildings(document, results, made, scales, has_material_colours()))
+        product[OutputPart::buildings] += to_bytes(building);
+    });
+    return product;
+  }
+  void take(const Document& /*document*/, Product product) override {
+    file_->append(product[OutputPart::buildings]);
+  }
+  void commit() override {
+    if (!file_) return;
+    const std::string path = path_of(kBuildingsName);
+    try {
+      file_->commit();
+      file_.reset();
+      PartialFiles::take_done();  // it does not stay
+      write_from(path);
+    } catch (...) {
+      if (!PartialFiles::are_kept()) remove_all(path);
+      throw;
+    }
+    if (written_)
+      remove(path);
+    else
+      remove_all(path);
+  }
+  void reopen() override { open(false); }
+
+  [[nodiscard]] PartPlaces places() const override {
+    PartPlaces places;
+    places[static_cast<std::size_t>(OutputPart::buildings)] = {path_of(kBuildingsName),
+                                                               file_ ? file_->size() : 0};
+    return places;
+  }
+  [[nodiscard]] std::string recipe() const override {
+    const TilesetOptions& tileset = arguments_.tileset;
+    return fmt::format(
+        "tiles scales={} profile={} crs={} most={} colours={} outlines={} viewer={} "
+        "compress={} gzip={}",
+        fmt::join(tileset.scales, ","), arguments_.profile ? arguments_.profile->level : "",
+        tileset.crs, tileset.most_triangles, static_cast<int>(tileset.glb.colours),
+        tileset.glb.has_outlines, arguments_.has_viewer, static_cast<int>(tileset.glb.compression),
+        tileset.has_gzip);
+  }
+  [[nodiscard]] bool is_streaming() const override { return true; }
+  [[nodiscard]] bool writes_files() const override { return true; }
+
+  /// What was written; nothing if there was no building.
+  [[nodiscard]] const std::optional<TilesetFiles>& written() const { return written_; }
+
+ private:
+  [[nodiscard]] bool has_material_colours() const {
+    return arguments_.tileset.glb.colours == GlbColours::by_material;
+  }
+
+  [[nodiscard]] std::string path_of(const char* name) const {
+    return (fs::path(arguments_.folder) / name).string();
+  }
+
+  void open(bool is_rehearsal) {
+    std::error_code error;
+    // What is wrong shows at the file.
+    has_made_folder_ |= fs::create_directories(arguments_.folder, error);
+    file_ = std::make_unique<OutputFile>(is_rehearsal ? "/dev/null" : path_of(kBuildingsName));
+  }
+
+  /// Asks for no memory, which may be used up. If it cannot go it is in nobody's way.
+  static void remove(const std::string& path) { std::remove(path.c_str()); }
+
+  /// What this run has made of the buildings in `path`, and these.
+  void remove_all(const std::string& path) const {
+    remove(path);
+    if (arguments_.has_viewer) remove(path_of(kPageName));
+    std::error_code error;
+    fs::remove_all(fs::path(arguments_.folder) / kTilesName, error);
+  }
+
+  void write_from(const std::string& path) {
+    const TileBuildings buildings(path);
+    if (buildings.entries().empty()) return;
+    // The tileset comes last: a folder that has one is whole.
+    if (arguments_.has_viewer) write_file(path_of(kPageName), tiles_page());
+    auto written = write_tileset(arguments_.folder, buildings, arguments_.tileset);
+    if (!written.value) {
+      const Issue reason = std::move(written.issues.back());
+      written.issues.pop_back();
+      report_.add(written.issues);
+      throw InputError(reason);
+    }
+    report_.add(written.issues);
+    for (const Issue& issue : written.issues)
+      if (issue.severity == Severity::error) runner_.set_aside(issue);
+    written_ = std::move(written.value);
+  }
+
+  const TilesArguments& arguments_;
+  const RuleBase& rules_;
+  BatchRunner& runner_;
+  Report& report_;
+  bool has_made_folder_ = false;
+  std::unique_ptr<OutputFile> file_;
+  std::optional<TilesetFiles> written_;
+};
+
+void tell(const TilesetFiles& written) {
+  for (const TilesetFiles::OfScale& of : written.scales)
+    run_log().info("1:{}: {}, {}, {:.0f} kB", of.scale, counted(of.tiles, "tile"),
+                   counted(of.buildings, "building"), static_cast<double>(of.bytes) / 1000);
+}
+
+/// Throws CLI::ValidationError E164 if there are other files in the folder. Those that a run left
+/// which was killed are none, nor is what a run with --resume goes on with.
+void check_tiles_folder(const TilesArguments& arguments) {
+  std::error_code error;
+  const fs::path folder(arguments.folder);
+  if (!fs::exists(folder, error)) return;
+  if (!fs::is_directory(folder, error))
+    refuse_usage("-o", Code::E164, printable(arguments.folder) + " is a file, not a folder");
+  const std::string& stem = arguments.status_stem;
+  const bool goes_on = arguments.is_resumable && (fs::exists(stem + ".journal", error) ||
+                                                  fs::exists(stem + ".status.json", error));
+  if (goes_on) return;
+  const bool is_free = std::ranges::all_of(
+      fs::directory_iterator(folder, error),
+      [](const fs::directory_entry& entry) { return is_leftover(entry.path()); });
+  if (!is_free)
+    refuse_usage("-o", Code::E164,
+                 printable(arguments.folder) + " is not empty: name another folder");
+  fs::remove_all(folder / kTilesName, error);
+}
+
+/// `oriel tiles`: the buildings of all inputs, one behind the other, go to FOLDER/buildings.part;
+/// when all are there the tiles are made of it, and it is removed.
+ExitCode write_tiles(const TilesArguments& arguments, const RuleBase& rules, Report& report) {
+  BatchRunner runner(arguments, &rules, report);
+  Tiler command(arguments, rules, runner, report);
+  const ExitCode code = runner.run(command);
+  if (runner.was_done()) return code;
+  runner.report_summary("tiled at " + counted(arguments.tileset.scales.size(), "scale"), {});
+  if (command.written()) tell(*command.written());
+  return code;
+}
 
 /// Fewer triangles to a tile would be many files, more would be slow to load.
 constexpr std::uint64_t kLeastTriangles = 100, kMostTriangles = 10'000'000;
