@@ -4,10 +4,9 @@
 #include "oriel/rules.h"
 #include "studio/lsp/documents.h"
 #include "studio/lsp/file_uri.h"
+#include "studio/lsp/json_value.h"
 #include "studio/lsp/message_stream.h"
 #include "studio/lsp/protocol_json.h"
-#include "studio/lsp/rpc_error.h"
-#include "studio/lsp/workspace_folders.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +16,9 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,98 @@
 namespace oriel::studio {
 
 namespace {
+
+/// Error codes of JSON-RPC and of the Language Server Protocol.
+enum class RpcCode {
+  parse_error = -32700,
+  invalid_request = -32600,
+  method_not_found = -32601,
+  invalid_params = -32602,
+  internal_error = -32603,
+  not_initialized = -32002,
+  request_failed = -32803
+};
+
+/// Why a request is answered with an error.
+class RpcError : public std::runtime_error {
+ public:
+  RpcError(RpcCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+  [[nodiscard]] RpcCode code() const { return code_; }
+
+ private:
+  RpcCode code_;
+};
+
+/// The folders that a client works in.
+class WorkspaceFolders {
+ public:
+  /// Those of the params of `initialize`: `workspaceFolders`, else `rootUri`, else `rootPath`.
+  void open(const JsonValue& params);
+  /// Of the notification `workspace/didChangeWorkspaceFolders`.
+  void change(const JsonValue& params);
+
+  /// The YAML files in the folder of `file`, sorted, if that is one of these folders or below:
+  /// packs extend others of their own folder only.
+  [[nodiscard]] std::vector<std::string> yaml_files_beside(const std::string& file) const;
+
+ private:
+  void add(const std::string& uri);
+
+  std::vector<std::string> folders_;
+};
+
+namespace fs = std::filesystem;
+
+bool is_yaml(const fs::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+bool is_below(const fs::path& folder, const fs::path& of) {
+  const fs::path way = folder.lexically_normal().lexically_relative(of.lexically_normal());
+  return !way.empty() && *way.begin() != "..";
+}
+
+void WorkspaceFolders::add(const std::string& uri) {
+  std::string folder = path_of_uri(uri);
+  if (!folder.empty() && std::ranges::find(folders_, folder) == folders_.end())
+    folders_.push_back(std::move(folder));
+}
+
+void WorkspaceFolders::open(const JsonValue& params) {
+  if (!params.is_object()) return;
+  const auto text = [&](const char* key) {
+    const auto found = params.find(key);
+    return found != params.end() && found->is_string() ? found->get<std::string>() : "";
+  };
+  if (const auto list = params.find("workspaceFolders"); list != params.end() && list->is_array())
+    for (const JsonValue& folder : *list) add(folder.at("uri").get<std::string>());
+  else if (const std::string uri = text("rootUri"); !uri.empty())
+    add(uri);
+  else if (const std::string path = text("rootPath"); !path.empty())
+    add(uri_of_path(path));
+}
+
+void WorkspaceFolders::change(const JsonValue& params) {
+  const JsonValue& event = params.at("event");
+  for (const JsonValue& folder : event.at("removed"))
+    std::erase(folders_, path_of_uri(folder.at("uri").get<std::string>()));
+  for (const JsonValue& folder : event.at("added")) add(folder.at("uri").get<std::string>());
+}
+
+std::vector<std::string> WorkspaceFolders::yaml_files_beside(const std::string& file) const {
+  std::vector<std::string> files;
+  const fs::path folder = fs::path(file).parent_path();
+  if (std::ranges::none_of(folders_, [&](const std::string& f) { return is_below(folder, f); }))
+    return files;
+  std::error_code problem;
+  fs::directory_iterator at(folder, problem);
+  for (const fs::directory_iterator end; !problem && at != end; at.increment(problem)) {
+    std::error_code ignored;
+    if (is_yaml(at->path()) && at->is_regular_file(ignored)) files.push_back(at->path().string());
+  }
+  std::ranges::sort(files);
+  return files;
+}
 
 /// Findings wait for so long a pause of the client.
 constexpr std::chrono::milliseconds kPause{80};
