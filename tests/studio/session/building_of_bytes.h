@@ -11,7 +11,7 @@
 
 namespace oriel::test {
 
-/// A building as the verb `geometry` gives it (studio/session/verbs/building_bytes.h).
+/// A building as the verb `geometry` gives it (studio/session/verbs/geometry_verbs.cpp).
 struct BuildingOfBytes {
   nlohmann::json head;
   std::vector<std::uint32_t> vertices, ring_ends, corner_ends, corners, owner_ends, owners;

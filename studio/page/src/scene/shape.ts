@@ -54,7 +54,7 @@ interface Entry {
   owners: number; storeys_mm: number[];
 }
 
-/** Shapes out of the bytes of the studio (studio/session/verbs/building_bytes.h): views of them, so nothing is looked at one by one. */
+/** Shapes out of the bytes of the studio (studio/session/verbs/geometry_verbs.cpp): views of them, so nothing is looked at one by one. */
 export function shapesOfBytes(bytes: ArrayBuffer): Shape[] {
   const headSize = new DataView(bytes).getUint32(0, true);
   const {buildings} = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, headSize))) as {buildings: Entry[]};
