@@ -20,10 +20,9 @@ constexpr std::array<std::string_view, 82> kKnownKeys = {
     "typify", "unless", "value", "version", "volume-pct", "wall", "weight", "when", "where", "why",
     "with", "within"};
 // clang-format on
+static_assert(std::ranges::is_sorted(kKnownKeys));
 
 }  // namespace
-
-std::span<const std::string_view> known_yaml_keys() { return kKnownKeys; }
 
 bool is_known_yaml_key(std::string_view word) {
   return std::ranges::find(kKnownKeys, word) != kKnownKeys.end();
