@@ -150,12 +150,6 @@ RoofForm roof_form_of(const Solid& solid, const std::vector<FacetId>& roof) {
   return form_of_slopes(solid, faces);
 }
 
-std::string_view to_string(RoofForm form) {
-  constexpr std::array<std::string_view, 8> kNames{"",       "flat",      "shed",    "gabled",
-                                                   "hipped", "pyramidal", "mansard", "other"};
-  return kNames.at(static_cast<std::size_t>(form));
-}
-
 /// Within this of level a normal has no azimuth, as in the tables of features and surfaces.
 constexpr double kLevel_deg = 1;
 /// An opening lies in a face whose plane is no further off and no more turned than this; planes of
@@ -418,6 +412,12 @@ class EnvelopeSurvey {
 };
 
 }  // namespace
+
+std::string_view to_string(RoofForm form) {
+  constexpr std::array<std::string_view, 8> kNames{"",       "flat",      "shed",    "gabled",
+                                                   "hipped", "pyramidal", "mansard", "other"};
+  return kNames.at(static_cast<std::size_t>(form));
+}
 
 BuildingEnergy energy_of(const Building& building, const PipelineResult& result,
                          const RuleBase& rules, const PipelineOptions& options,
