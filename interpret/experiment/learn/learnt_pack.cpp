@@ -99,7 +99,8 @@ std::string to_text(const Learnt& learnt, const RuleBase& rules) {
   if (!learnt.params.empty())
     text += fmt::format(", gain {:+.4f} (95 %: {})", learnt.held_out_after - learnt.held_out_before,
                         interval_text(learnt.held_out_gain));
-  text += "\n" + classes_text(learnt);
+  text += '\n';
+  text += classes_text(learnt);
   if (!learnt.knife_edges.empty())
     text += "knife edges: a small change of these moves the objective\n";
   for (const KnifeEdge& edge : learnt.knife_edges) text += edge_text(edge, rules);
