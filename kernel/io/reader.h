@@ -30,7 +30,6 @@ struct ReadOptions {
   /// The level of detail to take, exactly as written in the input. Default: of each building with
   /// its parts the highest that occurs.
   std::optional<std::string> lod;
-  ReadGeometries geometries = ReadGeometries::one;
   /// The format. Default: what the file's name says.
   std::optional<Format> format;
   /// Of CityJSON and CityGML: a BuildingInstallation with a geometry at the level that its building
@@ -44,6 +43,7 @@ struct ReadOptions {
   bool keeps_emptied = false;
   /// What is read is hashed, too.
   bool wants_sha256 = false;
+  ReadGeometries geometries = ReadGeometries::one;
 };
 
 /// Reads a file record by record, in bounded memory for CityJSONSeq and CityGML.
