@@ -3,7 +3,6 @@
 #include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan/plan.h"
-#include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/drawing_quality.h"
@@ -14,6 +13,7 @@
 #include "oriel/pipeline/targets.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -492,27 +492,6 @@ std::optional<GeneralisedBuilding> as_part_of_group(const Building& building,
   return out;
 }
 
-/// Names what stays as it is beside the building's geometry and is not valid (E321).
-void name_invalid_rest(const Document& document, const Building& building,
-                       GeneralisedBuilding& made) {
-  if (!document.source) return;
-  const bool is_redrawn = std::ranges::any_of(
-      made.levels, [](const Redrawn& level) { return level.labelled.geometry.has_value(); });
-  for (auto [at, end] = document.source->beside.equal_range(building.id); at != end; ++at) {
-    const Building& rest = at->second;
-    const bool is_installation = rest.id != building.id;
-    if (is_redrawn && !is_installation) continue;
-    const auto findings = validate(rest);
-    if (findings.empty()) continue;
-    made.issues.push_back(
-        building_issue(Severity::error, Code::E321, building.id,
-                       fmt::format("its {} stays unchanged and is not valid: {} {}",
-                                   is_installation ? fmt::format("installation '{}'", rest.id)
-                                                   : "other geometry of lod " + rest.lod,
-                                   to_string(findings[0].code), findings[0].sentence)));
-  }
-}
-
 /// Of a building that stands for others of its row.
 void add_stood_for(const std::vector<std::string>& ids, GeneralisedBuilding& made) {
   if (ids.empty() || made.levels.empty()) return;
@@ -550,7 +529,10 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
           made.issues.insert(made.issues.end(), more.begin(), more.end());
           add_stood_for(options.groups->stood_for(*result.surroundings), made);
         }
-        name_invalid_rest(document, building, made);
+        const bool is_redrawn = std::ranges::any_of(
+            made.levels, [](const Redrawn& level) { return level.labelled.geometry.has_value(); });
+        std::ranges::move(invalid_rest(document, building, is_redrawn),
+                          std::back_inserter(made.issues));
         return made;
       },
       [](const GeneralisedBuilding& made) {

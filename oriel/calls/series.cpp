@@ -103,6 +103,9 @@ class SeriesDrawer {
         });
     series.issues.insert(series.issues.end(), one.issues.begin(), one.issues.end());
     if (one.work->is_used_up()) series.issues.push_back(not_all_drawn(building, *one.work));
+    if (!options_.has_only_levels)
+      std::ranges::move(invalid_rest(document_, building, !has_errors(one.issues)),
+                        std::back_inserter(series.issues));
     if (has_errors(one.issues)) return;
     series.drawn.push_back(building.id);
     all.push_back(std::move(one));

@@ -1,6 +1,7 @@
 #include "oriel/pipeline/output_check.h"
 
 #include "kernel/base/index.h"
+#include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/io/levels/written_grid.h"
 #include "kernel/validate/part_folded.h"
 #include "kernel/validate/weld_written.h"
@@ -85,6 +86,26 @@ bool can_be_valid(const Document& document, const Building& building, const Soli
 }
 
 }  // namespace
+
+std::vector<Issue> invalid_rest(const Document& document, const Building& building,
+                                bool is_redrawn) {
+  std::vector<Issue> issues;
+  if (!document.source) return issues;
+  for (auto [at, end] = document.source->beside.equal_range(building.id); at != end; ++at) {
+    const Building& rest = at->second;
+    const bool is_installation = rest.id != building.id;
+    if (is_redrawn && !is_installation) continue;
+    const auto findings = validate(rest);
+    if (findings.empty()) continue;
+    issues.push_back(
+        building_issue(Severity::error, Code::E321, building.id,
+                       fmt::format("its {} stays unchanged and is not valid: {} {}",
+                                   is_installation ? fmt::format("installation '{}'", rest.id)
+                                                   : "other geometry of lod " + rest.lod,
+                                   to_string(findings[0].code), findings[0].sentence)));
+  }
+  return issues;
+}
 
 Issue invalid_before(const Building& building, const std::string& why) {
   return building_issue(Severity::error, Code::G413, building.id,

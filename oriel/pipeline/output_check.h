@@ -27,6 +27,11 @@ std::optional<Issue> check_output(const Document& document, const Building& buil
 std::optional<Issue> check_redrawn(const Document& document, const Building& building,
                                    const Solid& own, const Solid& solid);
 
+/// What stays as it is beside the building's geometry and is not valid (E321): installations with
+/// a geometry of their own, and other geometries of its level if it is not redrawn.
+std::vector<Issue> invalid_rest(const Document& document, const Building& building,
+                                bool is_redrawn);
+
 /// The error G413.
 Issue invalid_before(const Building& building, const std::string& why);
 

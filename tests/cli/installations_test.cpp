@@ -130,5 +130,13 @@ TEST_SUITE("cli") {
       CHECK(drawn.says("E321 its installation 'shaft' stays unchanged and is not valid: E345"));
       CHECK(drawn.out.find("\"house\"") != std::string::npos);
     }
+    const Folder folder;
+    const Outcome series = run({"generalise", "-", "--from", "cityjson", "--series",
+                                "1:500,1:25000", "-o", folder / "house"},
+                               {.in = city.dump()});
+    CHECK(series.exit == 3);
+    CHECK(series.says("E321 its installation 'shaft' stays unchanged and is not valid: E345"));
+    CHECK(bytes_of(folder / "house.1-500.city.json").find("\"house\"") != std::string::npos);
+    CHECK(run({"validate", folder / "house.1-25000.city.json"}).exit == 3);
   }
 }
