@@ -129,4 +129,9 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
 /// first says what is gone from the building; an installation leaves the file if no level has it.
 void add(GeneralisedBuilding building, OutputRecord& output);
 
+/// An error E359 for each part of a building that overlaps an earlier one of its family in what is
+/// written of a record, all of it added: redrawn solids as they are read again, and valid solids
+/// that stay.
+std::vector<Issue> overlaps_as_written(const Document& document, const OutputRecord& output);
+
 }  // namespace oriel

@@ -419,7 +419,11 @@ void BatchRunner::settle_product(WorkItem& item, const Document& document) {
 }
 
 void BatchRunner::set_aside(const Issue& why) {
-  ++state_.set_aside;
+  // A building that several errors name is one.
+  const std::string& id = why.place.building;
+  if (id.empty() ||
+      std::ranges::none_of(errors_, [&](const Issue& known) { return known.place.building == id; }))
+    ++state_.set_aside;
   state_.raise(ExitCode::set_aside);
   report({why});
   errors_.push_back(why);

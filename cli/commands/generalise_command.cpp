@@ -14,6 +14,7 @@
 #include "oriel/rules.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -233,8 +234,10 @@ class Generaliser final : public ProducingCommand {
       add(std::move(drawn[i]), output);
     }
     now_at_building(kNoBuilding);
-    timings.measure(Stage::write,
-                    [&] { outputs_.make_buildings(input, document, std::move(output), product); });
+    timings.measure(Stage::write, [&] {
+      std::ranges::move(overlaps_as_written(document, output), std::back_inserter(product.issues));
+      outputs_.make_buildings(input, document, std::move(output), product);
+    });
     return product;
   }
 

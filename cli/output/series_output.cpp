@@ -13,6 +13,7 @@
 #include "kernel/io/files/partial_files.h"
 #include "kernel/io/records/log_seal.h"
 #include "kernel/io/records/operation_log.h"
+#include "oriel/generalise.h"
 #include "oriel/series.h"
 #include "oriel/write.h"
 
@@ -23,6 +24,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -312,7 +314,12 @@ class SeriesWriter final : public VisitingCommand {
     std::vector<OutputRecord> levels;
     std::string log;
     runner_.timings().measure(Stage::generalise, [&] {
-      for (const double scale : scales_) levels.push_back(at(made, scale));
+      std::set<std::string> told;  // that overlap at a finer level
+      for (const double scale : scales_) {
+        levels.push_back(at(made, scale));
+        for (const Issue& issue : overlaps_as_written(document, levels.back()))
+          if (told.insert(issue.place.building).second) runner_.set_aside(issue);
+      }
       for (const SeriesOperation& operation : made.operations()) log += operation_line(operation);
     });
     runner_.timings().measure(Stage::write, [&] {

@@ -35,8 +35,8 @@ struct Document {
   /// Of a line of a CityJSONSeq: its "id", and the type of the CityObject with that id.
   std::string feature_id{};
   std::string feature_type = "Building";
-  /// With ReadOptions::geometries other than `one`: of each building the number of its family,
-  /// those that parents and children connect; kNoFamily of an object that is no building.
+  /// Of each building the number of its family, those that parents and children connect; kNoFamily
+  /// of an object that is no building. Empty for meshes.
   std::vector<std::size_t> families{};
 };
 

@@ -19,7 +19,7 @@ enum class ReadGeometries {
   one,
   /// All that the level has, also of objects that are no buildings (of CityJSON; of CityGML those
   /// that belong to a building): each is a Building of its own. Of such objects the level is their
-  /// own highest, if none is asked for. With Document::families.
+  /// own highest, if none is asked for.
   of_level,
   /// The same at all levels of detail.
   all

@@ -3,6 +3,7 @@
 #include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan/plan.h"
+#include "kernel/io/levels/written_grid.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/drawing_quality.h"
@@ -14,7 +15,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -553,6 +557,42 @@ void add(GeneralisedBuilding building, OutputRecord& output) {
     if (i > 0) level.labelled.attributes.clear();
   }
   for (Redrawn& level : building.levels) output.buildings.push_back(std::move(level.labelled));
+}
+
+std::vector<Issue> overlaps_as_written(const Document& document, const OutputRecord& output) {
+  std::map<std::size_t, std::vector<const Building*>> families;
+  for (std::size_t i = 0; i < document.families.size() && document.buildings.size() > 1; ++i)
+    if (document.families[i] != kNoFamily)
+      families[document.families[i]].push_back(&document.buildings[i]);
+  std::erase_if(families, [](const auto& family) { return family.second.size() < 2; });
+  if (families.empty()) return {};
+  std::multimap<std::string_view, const LabelledBuilding*> redrawn;
+  for (const LabelledBuilding& one : output.buildings)
+    if (one.geometry) redrawn.emplace(one.building, &one);
+  std::set<std::string_view> left(output.options.gone.begin(), output.options.gone.end());
+  left.insert(output.options.emptied.begin(), output.options.emptied.end());
+  std::vector<Issue> issues;
+  for (const auto& [_, members] : families) {
+    std::map<std::string, std::vector<Building>> levels;
+    for (const Building* member : members) {
+      if (left.contains(member->id)) continue;
+      const auto [first, end] = redrawn.equal_range(member->id);
+      for (auto at = first; at != end; ++at)
+        levels[at->second->lod.empty() ? member->lod : at->second->lod].push_back(
+            as_written(document, *member, *at->second->geometry));
+      if (first == end && member->is_solid && validate(*member).empty())
+        levels[member->lod].push_back(without_installations(*member));
+    }
+    for (const auto& [lod, parts] : levels) {
+      std::vector<const Building*> pointers;
+      for (const Building& part : parts) pointers.push_back(&part);
+      for (const auto& [part, finding] : overlapping_parts(pointers))
+        issues.push_back(building_issue(Severity::error, finding.code, parts[part].id,
+                                        fmt::format("{} as it is written at lod {} (val3dity {})",
+                                                    finding.sentence, lod, finding.val3dity)));
+    }
+  }
+  return issues;
 }
 
 }  // namespace oriel

@@ -47,6 +47,19 @@ std::set<std::string> codes_in(const json& building) {
   return codes;
 }
 
+/// A building of two parts p and q, cubes of 4 m, the second shifted from 10 m to `x_mm`.
+nlohmann::ordered_json two_parts(int x_mm) {
+  auto city = cubes({"p", "q"});
+  for (std::size_t i = 8; i < 16; ++i)
+    city["vertices"][i][0] = city["vertices"][i][0].get<int>() - 10000 + x_mm;
+  city["CityObjects"]["h"] = {{"type", "Building"}, {"children", {"p", "q"}}};
+  for (const char* id : {"p", "q"}) {
+    city["CityObjects"][id]["type"] = "BuildingPart";
+    city["CityObjects"][id]["parents"] = {"h"};
+  }
+  return city;
+}
+
 TEST_SUITE("cli") {
   TEST_CASE("the files of tests/data/errors are those that the project makes") {
     std::set<std::string> expected{"make.cpp"};
@@ -292,17 +305,8 @@ TEST_SUITE("cli") {
 
   TEST_CASE("building parts that overlap are 601 and parts that touch are not") {
     const Folder folder;
-    // Cubes of 4 m, the second shifted from 10 m to `x`.
     const auto parts_at = [&](int x_mm) {
-      auto city = cubes({"p", "q"});
-      for (std::size_t i = 8; i < 16; ++i)
-        city["vertices"][i][0] = city["vertices"][i][0].get<int>() - 10000 + x_mm;
-      city["CityObjects"]["h"] = {{"type", "Building"}, {"children", {"p", "q"}}};
-      for (const char* id : {"p", "q"}) {
-        city["CityObjects"][id]["type"] = "BuildingPart";
-        city["CityObjects"][id]["parents"] = {"h"};
-      }
-      return folder.write("parts.city.json", city.dump());
+      return folder.write("parts.city.json", two_parts(x_mm).dump());
     };
     for (const int overlapping : {3999, 2000, 1, 0, -1})
       for (const json& line : judged({parts_at(overlapping), "--snap", "1e-6"}, 3)) {
@@ -314,6 +318,48 @@ TEST_SUITE("cli") {
     for (std::size_t i = 8; i < 16; ++i)
       strangers["vertices"][i][0] = strangers["vertices"][i][0].get<int>() - 8000;
     CHECK(judged({folder.write("two.city.json", strangers.dump())}, 0).size() == 2);
+  }
+
+  TEST_CASE("parts that overlap as generalise writes them are named and the end is not clean") {
+    const Folder folder;
+    const std::string out = folder / "out.city.json";
+    for (const std::vector<std::string>& target :
+         std::vector<std::vector<std::string>>{{"--scale", "1:500", "-o", out},
+                                               {"--scale", "1:25000", "-o", out},
+                                               {"--to-lod", "1.0", "--to-lod", "2.0", "-o", out},
+                                               {"--series", "1:500,1:5000", "-o", folder / "s"}}) {
+      CAPTURE(target[1]);
+      for (const bool do_overlap : {true, false}) {
+        const std::string path =
+            folder.write("p.city.json", two_parts(do_overlap ? 3000 : 4000).dump());
+        std::vector<std::string> command{"generalise", path};
+        command.insert(command.end(), target.begin(), target.end());
+        const Outcome drawn = run(command);
+        CHECK(drawn.exit == (do_overlap ? 3 : 0));
+        CHECK(drawn.says("q: E359 it overlaps p of the same building") == do_overlap);
+        if (do_overlap) CHECK(drawn.says("1 of 2 buildings"));
+        const bool is_series = target[0] == "--series";
+        CHECK(run({"validate", "--lod", "all", is_series ? folder / "s.1-5000.city.json" : out})
+                  .exit == drawn.exit);
+      }
+    }
+  }
+
+  TEST_CASE(
+      "parts of shared data that overlap are named by generalise and ones that touch are not") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    for (const auto& [name, exit] :
+         {std::pair{"p04_dormer_is_a_part.city.json", 3}, {"touching-parts.gml", 0}}) {
+      const std::string path = (shared / "data" / "cases" / "families" / name).string();
+      for (const char* scale : {"1:500", "1:25000"}) {
+        CAPTURE(name);
+        const Outcome drawn =
+            run({"generalise", path, "--scale", scale, "-o", folder / "out.city.json"});
+        CHECK(drawn.exit == exit);
+        CHECK(drawn.says("E359 ") == (exit == 3));
+      }
+    }
   }
 
   TEST_CASE("line ends and a byte order mark change nothing") {

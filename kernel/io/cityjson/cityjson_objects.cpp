@@ -236,8 +236,8 @@ std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods,
 }
 
 std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
+                                              const std::vector<std::size_t>& family_of,
                                               const std::optional<std::string>& lod) {
-  const std::vector<std::size_t> family_of = families_of(entries);
   std::vector<Family> families(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (const GeometryEntry& geometry : entries[i].geometries)

@@ -88,14 +88,15 @@ std::vector<InstallationEntry> list_installations(dom::object objects,
 /// if there is none.
 const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod);
 
-/// The geometry to read of each entry, parallel to `entries`: that of the level of detail `lod`, or
-/// of the highest one in the family (objects linked by parents and children); a solid before
-/// surfaces. Without one: an error for the family that has none at the lod asked for (E205), a note
-/// for a member of a family that has it elsewhere, a warning for a family without any geometry
-/// (E209); of other objects than buildings nothing is said. Entries with a fault get that. One that
-/// has lost the level to a block gets nothing, whatever other levels it has, unless one of these is
-/// asked for.
+/// The geometry to read of each entry, parallel to `entries` and their families: that of the level
+/// of detail `lod`, or of the highest one in the family (objects linked by parents and children); a
+/// solid before surfaces. Without one: an error for the family that has none at the lod asked for
+/// (E205), a note for a member of a family that has it elsewhere, a warning for a family without
+/// any geometry (E209); of other objects than buildings nothing is said. Entries with a fault get
+/// that. One that has lost the level to a block gets nothing, whatever other levels it has, unless
+/// one of these is asked for.
 std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
+                                              const std::vector<std::size_t>& family_of,
                                               const std::optional<std::string>& lod);
 
 }  // namespace oriel::detail

@@ -318,9 +318,8 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
   const std::vector<ObjectEntry> entries =
       list_objects(model.objects, header.version == "1.0",
                    is_one ? ListedObjects::buildings : ListedObjects::all);
-  const std::vector<GeometryChoice> choices = choose_geometries(entries, options.lod);
-  std::vector<std::size_t> families;
-  if (!is_one) families = families_of(entries);
+  const std::vector<std::size_t> families = families_of(entries);
+  const std::vector<GeometryChoice> choices = choose_geometries(entries, families, options.lod);
   std::vector<InstallationEntry> installations;
   if (is_one) installations = list_installations(model.objects, entries, header.version == "1.0");
   GeometryReader geometries(*model.vertices, source.transform);
@@ -331,6 +330,7 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
       document.buildings.push_back(emptied_building(entry, source.transform, header.crs));
       source.places.push_back({entry.number, kNoGeometry});
       source.joined.emplace_back();
+      document.families.push_back(families[i]);
       continue;
     }
     const auto report = [&](Severity severity, const Fault& fault) {
@@ -378,7 +378,7 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
       for (const Fault& warning : warnings) report(Severity::warning, warning);
       document.buildings.push_back(std::move(*building));
       source.places.push_back({entry.number, geometry->number});
-      if (!is_one) document.families.push_back(entry.is_building ? families[i] : kNoFamily);
+      document.families.push_back(entry.is_building ? families[i] : kNoFamily);
     }
   }
   if (entries.empty() && name.line == 0) {
