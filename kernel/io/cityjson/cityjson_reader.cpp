@@ -344,28 +344,31 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
         geometries_to_read(entry, choices[i].geometry, options.geometries);
     if (choices[i].finding && taken.empty()) report(choices[i].severity, *choices[i].finding);
     const auto read = [&](const ObjectEntry& of, const GeometryEntry& geometry,
-                          Severity severity) -> std::optional<Building> {
+                          std::optional<Severity> severity) -> std::optional<Building> {
       Building building;
       building.id = of.id;
       building.lod = geometry.lod;
       building.frame.crs = header.crs;
       const auto fault = geometries.read(geometry.object, geometry.kind, building);
       if (!fault) return building;
-      report(severity, *fault);
+      if (severity) report(*severity, *fault);
       return std::nullopt;
     };
-    const auto keep_beside = [&](const ObjectEntry& of) {
+    const auto keep_beside = [&](const ObjectEntry& of, std::optional<Severity> severity) {
       for (const GeometryEntry& geometry : of.geometries)
         if (geometry.lod == taken[0]->lod && &geometry != taken[0])
-          if (auto rest = read(of, geometry, Severity::warning))
+          if (auto rest = read(of, geometry, severity))
             source.beside.emplace(entry.id, std::move(*rest));
     };
     if (is_one && !taken.empty()) {
       if (const auto unused = unused_geometries(entry, *taken[0]))
         report(Severity::warning, *unused);
-      keep_beside(entry);
+      keep_beside(entry, Severity::warning);
+      // Where installations are joined their faults are named then.
+      const auto of_installations =
+          options.joins_installations ? std::nullopt : std::optional(Severity::warning);
       for (const InstallationEntry& installation : installations_on(installations, i))
-        keep_beside(installation.object);
+        keep_beside(installation.object, of_installations);
     }
     for (const GeometryEntry* geometry : taken) {
       auto building = read(entry, *geometry, Severity::error);

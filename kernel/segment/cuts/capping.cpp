@@ -223,9 +223,9 @@ class Capper {
 };
 
 /// Tells whether a component and its caps make a patch, and measures it.
-class Judge {
+class PatchJudge {
  public:
-  Judge(FlatBody& flat, bool is_hole)
+  PatchJudge(FlatBody& flat, bool is_hole)
       : flat_(flat), body_(flat.body()), world_(flat.body().world()), is_hole_(is_hole) {}
 
   std::optional<Patch> run(const Component& component) {
@@ -432,7 +432,7 @@ PlaneSide rim_side(const Boundary& body, std::span<const PlaneSide> sides, EdgeI
 std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component) {
   PointTable& points = body.body().world().points;
   const PointTable::PointMark before = points.mark();
-  auto patch = Judge(body, is_hole).run(component);
+  auto patch = PatchJudge(body, is_hole).run(component);
   if (!patch) points.forget_since(before);
   return patch;
 }

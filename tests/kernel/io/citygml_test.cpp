@@ -41,10 +41,10 @@ Read read_gml(const std::string& text, ReadOptions options = {}) {
 
 /// A file of one building.
 Read read_building(const std::string& content, const std::string& version = "2.0",
-                   ReadOptions options = {}) {
+                   ReadOptions options = {}, const std::string& codes = "") {
   const Read read =
       read_gml(CityGmlFile{version, building("house", content)}.text(), std::move(options));
-  CHECK(codes_of(read.issues) == "");
+  CHECK(codes_of(read.issues) == codes);
   REQUIRE(read.buildings.size() == 1);
   return read;
 }
@@ -348,7 +348,8 @@ TEST_SUITE("kernel/io") {
     CHECK(solids.file["CityObjects"]["house"]["geometry"][0]["type"] == "MultiSolid");
     CHECK(solids.buildings[0].polygons.size() == 8);
     const Read both = read_building(
-        element("bldg:lod3Geometry", box_solid("p") + surfaces(polygon("", kTriangle))));
+        element("bldg:lod3Geometry", box_solid("p") + surfaces(polygon("", kTriangle))), "2.0", {},
+        "E215");
     CHECK(both.buildings[0].is_solid);
     CHECK(both.file["CityObjects"]["house"]["geometry"].size() == 2);
   }

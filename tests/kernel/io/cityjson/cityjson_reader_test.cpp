@@ -121,9 +121,10 @@ TEST_SUITE("kernel/io") {
     CHECK(record.value->buildings[0].id == "part");
     CHECK(record.value->buildings[0].lod == "2");
     CHECK(record.value->buildings[0].polygons.size() == 3);
-    CHECK(codes_of(record.issues) == "E205");
+    CHECK(codes_of(record.issues) == "E205 E215");
     CHECK(record.issues[0].severity == Severity::note);
     CHECK(record.issues[0].place.building == "house");
+    CHECK(record.issues[1].place.building == "part");
   }
 
   TEST_CASE("a level of detail asked for is taken exactly") {
