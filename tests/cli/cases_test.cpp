@@ -27,6 +27,9 @@ constexpr std::size_t kMostBytes = std::size_t{3} << 29;
 
 constexpr std::size_t kCommands = 9;
 
+/// Not run here, for the time it takes: as much as the others together.
+constexpr int kSlow = -1;
+
 /// What is done to each file; OUT is an output of the same format.
 const std::array<Words, kCommands>& commands() {
   static const std::array<Words, kCommands> all{
@@ -55,7 +58,7 @@ const std::vector<Case>& cases() {
       {"crash/empty-outer-ring-unassigned.city.jsonl", {0, 0, 3, 3, 0, 3, 3, 0, 3}, "E201", "E311"},
       {"crash/empty-outer-ring-in-stream.city.jsonl", {0, 0, 3, 3, 0, 3, 3, 0, 3}, "E201", "E311"},
       {"bounds/overlapping-boxes.city.jsonl", {0, 0, 3, 3, 0, 3, 3, 0, 0}, "E305", ""},
-      {"bounds/mesh-5k.city.json", {0, 0, 0, 0, 0, 0, 0, 0, 0}, "", ""},
+      {"bounds/mesh-5k.city.json", {0, 0, 0, kSlow, kSlow, kSlow, 0, kSlow, 0}, "", ""},
       {"geometry/installation-folded.city.json", {0, 0, 3, 3, 0, 0, 0, 0, 3}, "", "E345"},
       {"geometry/vertices-one-unit-apart.city.jsonl", {0, 0, 0, 0, 0, 0, 0, 0, 3}, "E309", "E312"},
       {"families/second-geometry-invalid.city.json", {0, 0, 3, 0, 0, 0, 0, 0, 3}, "E215", "E344"},
@@ -85,6 +88,7 @@ TEST_SUITE("cli") {
     ORIEL_NEEDS_SHARED(shared);
     for (const Case& one : cases())
       for (std::size_t i = 0; i < kCommands; ++i) {
+        if (one.exits[i] == kSlow) continue;
         const Folder folder;
         Words words = commands()[i];
         const std::string end = one.file.substr(one.file.find(".city"));

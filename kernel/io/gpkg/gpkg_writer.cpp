@@ -81,7 +81,7 @@ Issue mixed_types(const std::string& output, GpkgTable table, const detail::Gpkg
 struct GpkgWriter::State {
   explicit State(std::string path)
       : output(std::move(path)), folder(detail::scratch_folder(output)) {
-    rows.emplace(folder, output);
+    rows.emplace(folder, output).forget_name();
     for (const GpkgTable table : kTablesInOrder)
       columns[static_cast<std::size_t>(table)] = detail::table_columns(table);
   }

@@ -100,7 +100,8 @@ void LumpFinder::visit(EdgeId e) {
 }
 
 void LumpFinder::reach(int c) {
-  if (crossing_stamp_[at(c)] == stamp_) return;
+  if (c < 0) lump_.is_sound = false;
+  if (c < 0 || crossing_stamp_[at(c)] == stamp_) return;
   crossing_stamp_[at(c)] = stamp_;
   const Crossing& crossing = section_.crossings[at(c)];
   const Crossing& partner = section_.crossings[at(crossing.next)];
@@ -131,10 +132,11 @@ bool LumpFinder::visit_piece(int c, Visit visit) const {
     visit(section_.crossings[at(c)].at);
     const EdgeId first = body_.next(body_.twin(section_.crossings[at(c)].edge));
     EdgeId e = first;
-    for (; is_up(body_.target(e)); e = body_.next(e)) {
+    for (; e.is_valid() && is_up(body_.target(e)); e = body_.next(e)) {
       visit(body_.at(e));
       if (body_.next(e) == first) return false;
     }
+    if (!e.is_valid()) return false;
     visit(body_.at(e));
     c = crossing_of(e);
   } while (c >= 0 && c != start && ++chords < section_.crossings.size());
@@ -150,10 +152,11 @@ bool LumpFinder::visit_lower_piece(int c, Visit visit) const {
     visit(section_.crossings[at(c)].at);
     const EdgeId first = body_.next(section_.crossings[at(c)].edge);
     EdgeId e = first;
-    for (; !is_up(body_.target(e)); e = body_.next(e)) {
+    for (; e.is_valid() && !is_up(body_.target(e)); e = body_.next(e)) {
       visit(body_.at(e));
       if (body_.next(e) == first) return false;
     }
+    if (!e.is_valid()) return false;
     visit(body_.at(e));
     const int end = crossing_of(body_.twin(e));
     if (end < 0) return false;

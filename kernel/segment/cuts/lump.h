@@ -60,7 +60,13 @@ class LumpFinder {
   [[nodiscard]] bool is_up(PointId point) const {
     return (ranks_[point] - plane_rank_) * section_.direction > 0;
   }
-  [[nodiscard]] int crossing_of(EdgeId e) const { return scratch_.crossing_of_edge[e]; }
+  /// -1: the section does not cross the edge, of which an earlier one may have left a number.
+  [[nodiscard]] int crossing_of(EdgeId e) const {
+    const int c = scratch_.crossing_of_edge[e];
+    const bool is_here = c >= 0 && c < std::ssize(section_.crossings) &&
+                         section_.crossings[static_cast<std::size_t>(c)].edge == e;
+    return is_here ? c : -1;
+  }
   [[nodiscard]] bool is_reached(EdgeId e) const { return scratch_.flooded_edges.contains(e); }
 
   const Boundary& body_;
