@@ -8,9 +8,10 @@
 #include "kernel/mesh/triangulate.h"
 
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <span>
+#include <streambuf>
+#include <string_view>
 #include <utility>
 
 #include <OpenMesh/Core/System/omstream.hh>
@@ -68,15 +69,18 @@ struct FaceList {
 };
 
 /// Writes to the log what OpenMesh would write to stderr.
-class ComplaintLog {
+class ComplaintLog : public std::streambuf {
  public:
-  ComplaintLog() {
-    omerr().disconnect(std::cerr);
-    omerr().connect(*this);
+  ComplaintLog() { omerr().rdbuf(this); }
+
+ private:
+  /// A complaint comes as one text.
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    const std::string_view all(text, static_cast<std::size_t>(size));
+    log("kernel").debug("openmesh: {}", all.substr(0, all.find('\n')));
+    return size;
   }
-  void operator<<(const std::string& text) const {
-    log("kernel").debug("openmesh: {}", text.substr(0, text.find('\n')));
-  }
+  int_type overflow(int_type c) override { return traits_type::not_eof(c); }
 };
 
 /// Puts faces into OpenMesh, which takes what leaves every vertex with one fan of faces.
