@@ -27,7 +27,7 @@ constexpr std::size_t kMostBytes = std::size_t{3} << 29;
 
 constexpr std::size_t kCommands = 9;
 
-/// Not run here, for the time it takes: as much as the others together.
+/// Not run here: it takes longer than a test may.
 constexpr int kSlow = -1;
 
 /// What is done to each file; OUT is an output of the same format.
