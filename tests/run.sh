@@ -21,4 +21,10 @@ cmake --build --preset release
 
 echo "== tests"
 # One more at once than there are cores: tests in a browser wait for part of their time.
-ctest --preset release --parallel "$(($(nproc) + 1))" "$@"
+status=0
+ctest --preset release --parallel "$(($(nproc) + 1))" "$@" || status=$?
+# What failed says so once more at the end, where a reader of a long log looks.
+if [ "$status" -ne 0 ]; then
+  awk '/^[0-9]+\/[0-9]+ Testing: /{text = ""} {text = text $0 "\n"} /^Test Failed\.$/{printf "%s\n", text}' build/release/Testing/Temporary/LastTest.log
+fi
+exit "$status"
