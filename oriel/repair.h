@@ -21,7 +21,8 @@ struct Repaired {
   RepairReport report;
   /// The solid in the place of the polygons, with counts of what was repaired as attributes.
   LabelledBuilding output;
-  /// Those of solidify, then E318 if the solid would not be valid when it is read again.
+  /// Those of solidify, then E321 of what stays beside the solid and is not valid, and E318 if the
+  /// solid would not be valid when it is read again.
   std::vector<Issue> issues;
 };
 

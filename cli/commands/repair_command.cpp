@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <ranges>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -87,12 +88,13 @@ class Repairer final : public VisitingCommand {
   }
 
  private:
-  /// A solid that would not be valid when it is read again is none.
+  /// Repairs a building and reports the errors that the runner has not reported with its line.
   Repaired repaired(const Document& document, const Building& building, PipelineResult& line) {
-    const bool had_solid = line.solid.has_value();
+    const std::size_t reported = line.issues.size();
     Repaired out = repair(document, building, std::move(line),
                           arguments_.label_options(runner_.timings().observer()));
-    if (had_solid && !out.solid) runner_.set_aside(out.issues.back());
+    for (const Issue& issue : out.issues | std::views::drop(reported))
+      if (issue.severity == Severity::error) runner_.set_aside(issue);
     return out;
   }
 

@@ -8,6 +8,7 @@
 #include "oriel/segment.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -71,6 +72,7 @@ std::optional<Issue> make_valid(const Document& document, const Building& buildi
 Repaired checked_solid(const Document& document, const Building& building, PipelineResult solid,
                        const PipelineOptions& options) {
   Repaired out{std::move(solid.solid), std::move(solid.repair), {}, std::move(solid.issues)};
+  std::ranges::move(invalid_rest(document, building, false), std::back_inserter(out.issues));
   if (!out.solid) return out;
   Work work(options.budget);
   auto fault = make_valid(document, building, options, out, work);
