@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 
+#include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 
 namespace oriel {
@@ -309,25 +310,9 @@ void PairedComparer::for_each_sample(
 }
 
 double mcnemar_p(std::size_t only_first, std::size_t only_second) {
-  const std::size_t count = only_first + only_second;
-  const std::size_t least = std::min(only_first, only_second);
   if (only_first == only_second) return 1;
-  // The probability of `least` of `count`, as mantissa · 2^exponent: alone it may be no double.
-  double mantissa = 1;
-  auto exponent = -static_cast<double>(count);
-  for (std::size_t k = 0; k < least; ++k) {
-    int shift = 0;
-    mantissa =
-        std::frexp(mantissa * static_cast<double>(count - k) / static_cast<double>(k + 1), &shift);
-    exponent += shift;
-  }
-  // Each smaller number is less probable by k / (count - k + 1), so the sum soon stands.
-  double sum = 1, term = 1;
-  for (std::size_t k = least; k > 0 && sum + term != sum; --k) {
-    term *= static_cast<double>(k) / static_cast<double>(count - k + 1);
-    sum += term;
-  }
-  return std::min(1.0, 2 * mantissa * sum * std::exp2(exponent));
+  const boost::math::binomial coins(static_cast<double>(only_first + only_second), 0.5);
+  return std::min(1.0, 2 * cdf(coins, static_cast<double>(std::min(only_first, only_second))));
 }
 
 std::string to_text(const PairedComparison& comparison) {

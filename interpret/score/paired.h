@@ -97,7 +97,7 @@ class PairedComparer {
 
 /// The exact two-sided test of McNemar (1947), as a binomial test: the probability that of
 /// `only_first` + `only_second` fair coins the smaller side is no larger than here, both ways; at
-/// most 1, and 1 without any. It is summed up, not approximated, whatever the counts.
+/// most 1, and 1 without any. It is not approximated, whatever the counts.
 double mcnemar_p(std::size_t only_first, std::size_t only_second);
 
 /// For a terminal, a line a class; and one JSON object on one line (docs/formats.md).
