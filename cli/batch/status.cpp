@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utf8.h>
 
 namespace oriel::cli {
 
@@ -18,15 +19,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kQuarantine = ".quarantine.jsonl";
-
-bool is_utf8(const std::string& text) {
-  try {
-    (void)ordered_json(text).dump();
-    return true;
-  } catch (const ordered_json::type_error&) {
-    return false;
-  }
-}
 
 std::string hexadecimal(std::string_view bytes) {
   std::string digits;
@@ -106,7 +98,7 @@ void StatusWriter::append(const std::string& input, int line, const std::vector<
   const std::string text(record);
   if (record.empty())
     entry["record"] = nullptr;
-  else if (is_utf8(text))
+  else if (utf8::is_valid(text))
     entry["record"] = text;
   else
     entry["record_hex"] = hexadecimal(record);

@@ -1,6 +1,7 @@
 #include "interpret/testing/rule_tests.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/xml.h"
 
 #include <algorithm>
 
@@ -15,40 +16,15 @@ std::string text_of(const Place& place) {
   return fmt::format("{}:{}:{}", printable(place.file), place.line, place.column);
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:  // XML has no way to write other control characters
-        out += static_cast<unsigned char>(c) < 0x20U ? printable({&c, 1}) : std::string(1, c);
-    }
-  }
-  return out;
-}
-
 std::string testcase(const RuleTestReport& report, const RuleTestResult& test) {
-  std::string text = fmt::format(
-      "    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" line=\"{}\"", escaped(report.pack),
-      escaped(test.name), escaped(test.place.file), test.place.line);
+  std::string text =
+      fmt::format("    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" line=\"{}\"",
+                  escaped_xml(report.pack), escaped_xml(test.name), escaped_xml(test.place.file),
+                  test.place.line);
   if (test.failures.empty()) return text + "/>\n";
   text += ">\n";
   for (const std::string& failure : test.failures)
-    text += fmt::format("      <failure message=\"{}\"/>\n", escaped(failure));
+    text += fmt::format("      <failure message=\"{}\"/>\n", escaped_xml(failure));
   return text + "    </testcase>\n";
 }
 
@@ -115,7 +91,7 @@ std::string to_junit(const std::vector<RuleTestReport>& reports) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   for (const RuleTestReport& report : reports) {
     text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
-                        escaped(report.file), report.tests.size(), report.failed());
+                        escaped_xml(report.file), report.tests.size(), report.failed());
     for (const RuleTestResult& test : report.tests) text += testcase(report, test);
     text += "  </testsuite>\n";
   }

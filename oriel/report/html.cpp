@@ -1,5 +1,6 @@
+#include "kernel/base/text/printable.h"
+#include "kernel/base/text/xml.h"
 #include "oriel/report/forms.h"
-#include "oriel/report/markup.h"
 #include "oriel/report/tables.h"
 
 #include <fmt/format.h>
@@ -15,13 +16,13 @@ namespace {
 void append_html_row(std::string& out, const std::vector<std::string>& cells, const char* tag) {
   out += "<tr>";
   for (const std::string& cell : cells)
-    out += fmt::format("<{0}>{1}</{0}>", tag, escaped_markup(cell));
+    out += fmt::format("<{0}>{1}</{0}>", tag, escaped_xml(printable(cell)));
   out += "</tr>\n";
 }
 
 void append_html_table(std::string& out, const ReportTable& table) {
   out += fmt::format("<h3>{}</h3>\n<p>{}</p>\n<div class=\"scroll\"><table>\n",
-                     escaped_markup(table.title), escaped_markup(table.caption));
+                     escaped_xml(printable(table.title)), escaped_xml(printable(table.caption)));
   append_html_row(out, table.header, "th");
   for (const auto& row : table.rows) append_html_row(out, row, "td");
   out += "</table></div>\n";
@@ -55,12 +56,13 @@ std::string filled(std::string_view page,
 }  // namespace
 
 std::string html_of(const ExperimentResults& results, const std::vector<ReportSection>& sections) {
-  std::string body = fmt::format("<h1>{}</h1>\n", escaped_markup(results.name));
-  if (!results.about.empty()) body += fmt::format("<p>{}</p>\n", escaped_markup(results.about));
+  std::string body = fmt::format("<h1>{}</h1>\n", escaped_xml(printable(results.name)));
+  if (!results.about.empty())
+    body += fmt::format("<p>{}</p>\n", escaped_xml(printable(results.about)));
   std::string charts;
   std::size_t number = 0;
   for (const ReportSection& section : sections) {
-    body += fmt::format("<h2>{}</h2>\n", escaped_markup(section.group.title()));
+    body += fmt::format("<h2>{}</h2>\n", escaped_xml(printable(section.group.title())));
     for (const Chart& chart : section.charts) {
       body += fmt::format("<div class=\"chart\" id=\"chart{}\"></div>\n", number++);
       if (!charts.empty()) charts += ',';
@@ -74,9 +76,9 @@ std::string html_of(const ExperimentResults& results, const std::vector<ReportSe
   body += fmt::format(
       "<h2>How it was made</h2>\n<p>By {}. All rows are in <code>results.csv</code>, "
       "all inputs with their hashes in <code>manifest.json</code>.</p>\n",
-      escaped_markup(results.program));
+      escaped_xml(printable(results.program)));
   append_html_table(body, table_of_options(results));
-  return filled(report_page(), {{"{{title}}", escaped_markup(results.name)},
+  return filled(report_page(), {{"{{title}}", escaped_xml(printable(results.name))},
                                 {"{{body}}", body},
                                 {"{{charts}}", "[" + charts + "]"},
                                 {"{{vega}}", vega_script()}});

@@ -1,5 +1,6 @@
+#include "kernel/base/text/printable.h"
+#include "kernel/base/text/xml.h"
 #include "oriel/report/forms.h"
-#include "oriel/report/markup.h"
 
 #include <algorithm>
 #include <array>
@@ -104,7 +105,7 @@ class Drawing {
   void text(double x, double y, const char* anchor, const std::string& words,
             const std::string& more = "") {
     text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                         anchor, more, escaped_markup(words));
+                         anchor, more, escaped_xml(printable(words)));
   }
   void dot(double x, double y, const char* colour) {
     text_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y,

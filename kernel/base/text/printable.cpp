@@ -3,25 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 namespace oriel {
 
 namespace {
-
-constexpr bool is_continuation_byte(unsigned byte) { return (byte & 0xC0U) == 0x80U; }
-
-unsigned byte_at(std::string_view text, std::size_t at) {
-  return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
-}
-
-/// The code point of the UTF-8 sequence of `length` bytes at `text[at]`.
-unsigned code_point(std::string_view text, std::size_t at, std::size_t length) {
-  const unsigned first = byte_at(text, at);
-  if (length == 1) return first;
-  unsigned point = first & (0x7FU >> length);
-  for (std::size_t i = 1; i < length; ++i) point = (point << 6U) | (byte_at(text, at + i) & 0x3FU);
-  return point;
-}
 
 constexpr bool is_control(unsigned point) {
   return point < 0x20U || (point >= 0x7FU && point <= 0x9FU);
@@ -56,11 +42,11 @@ std::string escaped_text(std::string_view text, std::string_view kept) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = utf8_length(text, at);
     if (length == 0)
-      out += fmt::format("\\x{:02x}", byte_at(text, at));
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at]));
     else if (is_printable(text, at) || kept.find(text[at]) != std::string_view::npos)
       out += text.substr(at, length);
     else
-      append_escaped(out, code_point(text, at, length));
+      append_escaped(out, utf8::unchecked::peek_next(text.data() + at));
     at += std::max<std::size_t>(length, 1);
   }
   return out;
@@ -69,22 +55,17 @@ std::string escaped_text(std::string_view text, std::string_view kept) {
 }  // namespace
 
 std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const unsigned first = byte_at(text, at), second = byte_at(text, at + 1);
-  if (first < 0x80U) return 1;
-  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
-  if (first < 0xC2U || first > 0xF4U) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if (!is_continuation_byte(byte_at(text, at + i))) return 0;
-  // Overlong forms, surrogates and code points beyond U+10FFFF.
-  if ((first == 0xE0U && second < 0xA0U) || (first == 0xEDU && second > 0x9FU)) return 0;
-  if ((first == 0xF0U && second < 0x90U) || (first == 0xF4U && second > 0x8FU)) return 0;
-  return length;
+  if (static_cast<unsigned char>(text[at]) < 0x80U) return 1;
+  const std::string_view rest = text.substr(at, 4);
+  if (utf8::find_invalid(rest) == 0) return 0;
+  const char* next = rest.data();
+  utf8::unchecked::next(next);
+  return static_cast<std::size_t>(next - rest.data());
 }
 
 bool is_printable(std::string_view text, std::size_t at) {
-  const std::size_t length = utf8_length(text, at);
-  if (length == 0) return false;
-  const unsigned point = code_point(text, at, length);
+  if (utf8_length(text, at) == 0) return false;
+  const unsigned point = utf8::unchecked::peek_next(text.data() + at);
   return !is_control(point) && !is_end_or_turn(point);
 }
 

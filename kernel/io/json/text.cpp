@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 namespace oriel::detail {
 
@@ -74,14 +75,8 @@ Issue finding_of(const TextName& name, Severity severity, std::string_view build
 }
 
 std::optional<std::size_t> find_non_utf8(std::string_view text) {
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const bool is_ascii = static_cast<unsigned char>(text[at]) < 0x80U;
-    const std::size_t length = is_ascii ? 1 : utf8_length(text, at);
-    if (length == 0) return at;
-    at += length;
-  }
-  return std::nullopt;
+  const std::size_t at = utf8::find_invalid(text);
+  return at == std::string_view::npos ? std::nullopt : std::optional(at);
 }
 
 std::string_view without_bom(std::string_view text) {

@@ -1,6 +1,7 @@
 #include "kernel/io/citygml/write/citygml_writer.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/text/xml.h"
 #include "kernel/io/citygml/write/gml_attributes.h"
 #include "kernel/io/citygml/write/gml_levels.h"
 #include "kernel/io/citygml/write/xml_text.h"
@@ -202,7 +203,7 @@ class GmlWriter {
     out_ += "<gml:boundedBy><gml:Envelope";
     if (!crs_.empty()) {
       out_ += " srsName=\"";
-      append_xml(out_, crs_);
+      out_ += escaped_xml(crs_);
       out_ += '"';
     }
     out_ += " srsDimension=\"3\"><gml:lowerCorner>";

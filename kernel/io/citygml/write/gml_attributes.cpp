@@ -1,5 +1,6 @@
 #include "kernel/io/citygml/write/gml_attributes.h"
 
+#include "kernel/base/text/xml.h"
 #include "kernel/io/citygml/write/xml_text.h"
 #include "kernel/io/citygml/xml_node.h"
 #include "kernel/io/json/json_text.h"
@@ -197,15 +198,15 @@ class AttributeWriter {
     element += "Attribute";
     if (!is_three) {
       out += '<' + element + " name=\"";
-      append_xml(out, name);
+      out += escaped_xml(name);
       out += "\"><gen:value>";
     } else {
       element[4] = static_cast<char>(element[4] - 'a' + 'A');
       out += "<core:genericAttribute><" + element + "><gen:name>";
-      append_xml(out, name);
+      out += escaped_xml(name);
       out += "</gen:name><gen:value>";
     }
-    append_xml(out, text);
+    out += escaped_xml(text);
     out += "</gen:value></" + element + '>';
     if (is_three) out += "</core:genericAttribute>";
     out += '\n';
@@ -218,7 +219,7 @@ class AttributeWriter {
     const bool is_three = version_ == GmlVersion::three;
     out += is_three ? "<core:genericAttribute><gen:GenericAttributeSet><gen:name>"
                     : "<gen:genericAttributeSet name=\"";
-    append_xml(out, name);
+    out += escaped_xml(name);
     out += is_three ? "</gen:name>\n" : "\">\n";
     out += is_three ? in_set(std::move(inner)) : inner;
     out += is_three ? "</gen:GenericAttributeSet></core:genericAttribute>\n"

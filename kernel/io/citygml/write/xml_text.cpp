@@ -1,20 +1,24 @@
 #include "kernel/io/citygml/write/xml_text.h"
 
+#include "kernel/base/text/printable.h"
+#include "kernel/base/text/xml.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 namespace oriel::detail {
 
 namespace {
 
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 constexpr char32_t kReplaced = 0xFFFD;
 /// The id without a character, and what is written for it.
 constexpr std::string_view kEmptyId = "_x00_";
@@ -27,43 +31,9 @@ struct Character {
 };
 
 Character character_at(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80U) return {lead, 1};
-  const std::size_t bytes = lead >= 0xF0U ? 4 : lead >= 0xE0U ? 3 : 2;
-  if (lead < 0xC2U || lead > 0xF4U || at + bytes > text.size()) return {kReplaced, 1};
-  char32_t number = lead & (0xFFU >> (bytes + 1));
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return {kReplaced, 1};
-    number = number << 6U | (byte(i) & 0x3FU);
-  }
-  const bool is_overlong = (bytes == 3 && number < 0x800) || (bytes == 4 && number < 0x10000);
-  const bool is_surrogate = number >= 0xD800 && number <= 0xDFFF;
-  if (is_overlong || is_surrogate || number > 0x10FFFF) return {kReplaced, 1};
-  return {number, bytes};
-}
-
-void append_utf8(std::string& out, char32_t number) {
-  const auto put = [&](char32_t byte) { out += static_cast<char>(byte); };
-  if (number < 0x80) return put(number);
-  if (number < 0x800) {
-    put(0xC0U | number >> 6U);
-  } else {
-    if (number < 0x10000) {
-      put(0xE0U | number >> 12U);
-    } else {
-      put(0xF0U | number >> 18U);
-      put(0x80U | (number >> 12U & 0x3FU));
-    }
-    put(0x80U | (number >> 6U & 0x3FU));
-  }
-  put(0x80U | (number & 0x3FU));
-}
-
-/// XML 1.0, production Char.
-bool is_xml(char32_t c) {
-  return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c <= 0xD7FF) ||
-         (c >= 0xE000 && c <= 0xFFFD) || c >= 0x10000;
+  const std::size_t bytes = utf8_length(text, at);
+  if (bytes == 0) return {kReplaced, 1};
+  return {utf8::unchecked::peek_next(text.data() + at), bytes};
 }
 
 using CharacterRange = std::pair<char32_t, char32_t>;
@@ -108,34 +78,13 @@ std::optional<Character> escape_at(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-void append_xml(std::string& out, std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const auto [c, bytes] = character_at(text, at);
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (c == '\t' || c == '\n' || c == '\r')
-      out += fmt::format("&#{};", static_cast<int>(c));
-    else if (c == kReplaced || !is_xml(c))
-      out += kReplacement;
-    else
-      out += text.substr(at, bytes);
-    at += bytes;
-  }
-}
-
 void append_element(std::string& out, std::string_view name, std::string_view text,
                     std::string_view attributes) {
   out += '<';
   out += name;
   out += attributes;
   out += '>';
-  append_xml(out, text);
+  out += escaped_xml(text);
   out += "</";
   out += name;
   out += ">\n";
@@ -165,7 +114,7 @@ std::string xml_id_source(std::string_view xml_id) {
     const auto escape = escape_at(xml_id, at);
     const Character here = escape ? *escape : character_at(xml_id, at);
     if (escape)
-      append_utf8(result, here.number);
+      utf8::unchecked::append(here.number, std::back_inserter(result));
     else
       result += xml_id.substr(at, here.bytes);
     at += here.bytes;

@@ -5,10 +5,6 @@
 
 namespace oriel::detail {
 
-/// Appends text as it stands between tags or in an attribute's quotes. What XML 1.0 cannot hold,
-/// control characters and bytes that are not UTF-8, becomes U+FFFD.
-void append_xml(std::string& out, std::string_view text);
-
 /// `<name>text</name>` with a line end; `attributes` stand behind the name as they are, with the
 /// blank before them.
 void append_element(std::string& out, std::string_view name, std::string_view text,
