@@ -228,16 +228,6 @@ Vec3 moved_onto(const FacetSheet& sheet, Vec3 p) {
   return p + (sheet.offset_m - dot(sheet.normal, p)) * sheet.normal;
 }
 
-bool do_cross(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 normal) {
-  const auto side = [&](Vec3 from, Vec3 to, Vec3 of) {
-    const double area = dot(cross(to - from, of - from), normal);
-    return area > kRounding_m * length(to - from)    ? 1
-           : area < -kRounding_m * length(to - from) ? -1
-                                                     : 0;
-  };
-  return side(p, q, r) * side(p, q, s) < 0 && side(r, s, p) * side(r, s, q) < 0;
-}
-
 /// A point of `of` that lies over the other sheet, seen along their normal.
 std::optional<Vec3> point_over(const FacetSheet& of, const FacetSheet& other) {
   std::vector<Vec3> points;
@@ -257,7 +247,9 @@ std::optional<Vec3> crossing(const FacetSheet& a, const FacetSheet& b) {
       const Vec3 p = moved_onto(b, mine[i]), q = moved_onto(b, mine[(i + 1) % mine.size()]);
       for (const Outline& yours : b.outlines)
         for (std::size_t k = 0; k < yours.size(); ++k)
-          if (do_cross(p, q, yours[k], yours[(k + 1) % yours.size()], b.normal)) return yours[k];
+          if (detail::do_cross(p, q, yours[k], yours[(k + 1) % yours.size()], b.normal,
+                               kRounding_m))
+            return yours[k];
     }
   return std::nullopt;
 }

@@ -3,7 +3,6 @@
 #include "generalise/operators/facade.h"
 #include "kernel/attach/move_facet.h"
 #include "kernel/base/index.h"
-#include "kernel/geometry/directions.h"
 #include "kernel/geometry/exact.h"
 
 #include <algorithm>
@@ -128,16 +127,6 @@ std::vector<FacetId> facets_of(const Solid& solid, const Segmentation& segmentat
   return found;
 }
 
-/// The axes of the wall that it stood on; its facet is looked for where it goes.
-std::optional<Host> axes_of(const Segmentation& segmentation, const Feature& feature) {
-  if (feature.planes.empty()) return std::nullopt;
-  const Plane& plane = segmentation.planes[feature.planes[0].index()];
-  if (!looks_aside(plane.normal)) return std::nullopt;
-  Host host{{}, plane, normalised(cross({0, 0, 1}, plane.normal)), {}, plane.normal};
-  host.v = cross(host.n, host.u);
-  return host;
-}
-
 Followed refused(const char* reason) { return {{std::nullopt, reason}}; }
 
 /// Openings before and after, along the axes of their wall.
@@ -192,7 +181,9 @@ DrawnCorners drawn_corners(const Solid& solid, const Segmentation& segmentation,
 Followed follow(const Solid& solid, const Segmentation& segmentation, const Follower& follower,
                 const DrawnCorners& drawn, const std::vector<FeatureId>& own, bool tells_beside) {
   const Feature& feature = segmentation.features[follower.feature.index()];
-  auto host = axes_of(segmentation, feature);
+  // Its facet is looked for where it goes.
+  auto host = feature.planes.empty() ? std::nullopt
+                                     : wall_axes(segmentation.planes[feature.planes[0].index()]);
   if (!host) return refused("it does not stand on a wall");
   const Extents before = extents_of(*host, segmentation, feature);
   if (feature.sense != Sense::protrusion || !is_box(feature, before))

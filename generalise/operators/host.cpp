@@ -142,6 +142,13 @@ std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point) 
   return std::nullopt;
 }
 
+std::optional<Host> wall_axes(const Plane& plane) {
+  if (!looks_aside(plane.normal)) return std::nullopt;
+  Host host{{}, plane, normalised(cross(kUp, plane.normal)), {}, plane.normal};
+  host.v = cross(host.n, host.u);
+  return host;
+}
+
 Extents united(const Extents& one, const Extents& other) {
   return {std::min(one.u0, other.u0),     std::max(one.u1, other.u1),
           std::min(one.v0, other.v0),     std::max(one.v1, other.v1),

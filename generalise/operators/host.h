@@ -29,6 +29,9 @@ inline constexpr double kOnEdge_m = 0.002;
 /// The facet of `plane` that has the point in it, or nothing.
 std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point);
 
+/// The axes of a wall, nothing of other planes; its facet is not looked for.
+std::optional<Host> wall_axes(const Plane& plane);
+
 /// The extents of some points along the axes of a host; `out` counts from its plane.
 struct Extents {
   double u0, u1, v0, v1, out0, out1;

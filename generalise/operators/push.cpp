@@ -1,7 +1,6 @@
 #include "generalise/operators/push.h"
 
 #include "generalise/operators/facade.h"
-#include "kernel/geometry/directions.h"
 
 #include <algorithm>
 #include <array>
@@ -16,14 +15,6 @@
 namespace oriel::detail {
 
 namespace {
-
-/// The axes of a wall; its facet is not looked for.
-std::optional<Host> wall_axes(const Plane& plane) {
-  if (!looks_aside(plane.normal)) return std::nullopt;
-  Host host{{}, plane, normalised(cross({0, 0, 1}, plane.normal)), {}, plane.normal};
-  host.v = cross(host.n, host.u);
-  return host;
-}
 
 /// What the step asks for (enlarge); nothing if it is large enough.
 std::optional<Extents> asked_for(const Redrawing& task, const Host& host) {

@@ -6,6 +6,7 @@
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/index.h"
+#include "kernel/geometry/boxes.h"
 #include "kernel/model/description/feature_names.h"
 #include "kernel/model/version.h"
 
@@ -291,7 +292,7 @@ int Annotator::nearest_surface(const Box& box, Vec3 normal, const std::vector<in
     if (polygon == nullptr || !is_host_surface(*polygon)) continue;
     const Vec3 area = rules::area_vector(building_, *polygon);
     const double percent_aligned = std::round(100 * std::abs(dot(normalised(area), normal)));
-    const double distance = rules::distance_m(rules::box_of(building_, *polygon), box);
+    const double distance = distance_m(rules::box_of(building_, *polygon), box);
     const std::tuple key(distance, -percent_aligned, -length(area), source);
     if (!best || key < *best) best = key;
   }

@@ -3,8 +3,6 @@
 #include "kernel/geometry/directions.h"
 #include "kernel/model/vec3.h"
 
-#include <algorithm>
-
 namespace oriel::rules {
 
 namespace {
@@ -29,14 +27,6 @@ Box box_of(const Building& building, const Polygon& polygon) {
   if (polygon.rings.empty()) return box;
   for (const int index : polygon.rings[0]) box.grow(vertex(building, index));
   return box;
-}
-
-double distance_m(const Box& p, const Box& q) {
-  const auto gap = [](double low, double high, double other_low, double other_high) {
-    return std::max({0.0, low - other_high, other_low - high});
-  };
-  return length({gap(p.min.x, p.max.x, q.min.x, q.max.x), gap(p.min.y, p.max.y, q.min.y, q.max.y),
-                 gap(p.min.z, p.max.z, q.min.z, q.max.z)});
 }
 
 }  // namespace oriel::rules

@@ -15,7 +15,4 @@ double inclination_deg(Vec3 direction);
 /// The box of a polygon's outer ring.
 Box box_of(const Building& building, const Polygon& polygon);
 
-/// The distance between two boxes, 0 where they touch.
-double distance_m(const Box& p, const Box& q);
-
 }  // namespace oriel::rules

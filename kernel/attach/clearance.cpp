@@ -48,13 +48,13 @@ namespace {
 /// The box that the facet passes through, in its own axes.
 std::vector<HalfSpaceM> passage(const Solid& solid, FacetId facet, const Moves& moves) {
   const Vec3 n = solid.planes[solid.facets[facet.index()].plane.index()].normal;
-  const Vec3 u = normalised(std::abs(n.z) < 0.9 ? cross({0, 0, 1}, n) : cross({1, 0, 0}, n));
+  const auto [u, v] = axes_in(n);
   std::vector<HalfSpaceM> limits;
-  for (const Vec3 direction : {u, -u, cross(n, u), -cross(n, u), n, -n}) {
+  for (const Vec3 direction : {u, -u, v, -v, n, -n}) {
     HalfSpaceM limit{direction, -Box::kInfinity};
-    for (const auto& [v, to] : moves)
+    for (const auto& [vertex, to] : moves)
       limit.offset_m = std::max(
-          {limit.offset_m, dot(direction, solid.vertices[at(v)].point), dot(direction, to)});
+          {limit.offset_m, dot(direction, solid.vertices[at(vertex)].point), dot(direction, to)});
     limits.push_back(limit);
   }
   for (std::size_t along = 4; along < limits.size(); ++along)

@@ -51,12 +51,8 @@ bool turns_around(Vec3 p, Vec3 q, Vec3 next) {
   return dot(direction(p, q), direction(q, next)) < kAgainst;
 }
 
-bool do_cross(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-  return sine(b - a, c - a) * sine(b - a, d - a) < 0 && sine(d - c, a - c) * sine(d - c, b - c) < 0;
-}
-
 bool are_apart(Vec3 a, Vec3 b, Vec3 c, Vec3 d, double reach_m) {
-  return !do_cross(a, b, c, d) &&
+  return !do_cross(a, b, c, d, {0, 0, 1}) &&
          std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d),
                    distance_to_segment(c, a, b), distance_to_segment(d, a, b)}) >= reach_m;
 }

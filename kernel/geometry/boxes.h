@@ -27,6 +27,15 @@ constexpr bool overlap(const Box& p, const Box& q, double reach_m = 0) {
          p.min.z <= q.max.z + reach_m && q.min.z <= p.max.z + reach_m;
 }
 
+/// How far the boxes are apart, 0 where they touch.
+inline double distance_m(const Box& p, const Box& q) {
+  const auto gap = [](double low, double high, double other_low, double other_high) {
+    return std::max({0.0, low - other_high, other_low - high});
+  };
+  return length({gap(p.min.x, p.max.x, q.min.x, q.max.x), gap(p.min.y, p.max.y, q.min.y, q.max.y),
+                 gap(p.min.z, p.max.z, q.min.z, q.max.z)});
+}
+
 /// What the boxes share; an empty box if they do not meet.
 constexpr Box intersection(const Box& p, const Box& q) {
   if (!overlap(p, q)) return {};

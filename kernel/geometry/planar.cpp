@@ -177,6 +177,15 @@ double distance_to_segment(Vec3 point, Vec3 from, Vec3 to) {
   return length(point - (from + t * along));
 }
 
+bool do_cross(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 normal, double slack_m) {
+  const auto side = [&](Vec3 from, Vec3 to, Vec3 of) {
+    const double area = dot(cross(to - from, of - from), normal);
+    const double slack = slack_m > 0 ? slack_m * length(to - from) : 0;
+    return area > slack ? 1 : area < -slack ? -1 : 0;
+  };
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal) {
   return point_inside_of(outlines, normal);
 }

@@ -44,6 +44,10 @@ bool contains_clearly(std::span<const Outline> outlines, Vec3 normal, Vec3 point
 /// How far a point is from a segment.
 double distance_to_segment(Vec3 point, Vec3 from, Vec3 to);
 
+/// True if the segments a b and c d cross, seen along the normal, their ends no nearer to the line
+/// of the other one than `slack_m`.
+bool do_cross(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 normal, double slack_m = 0);
+
 /// A point inside the figure, as far from its outlines as the longest chord at the middle of the
 /// tallest gap between its vertices allows. Outlines may run over each other. Nothing if the figure
 /// has no area, or is thinner than kThin_m.

@@ -2,6 +2,8 @@
 
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
+#include "kernel/geometry/boxes.h"
+#include "kernel/geometry/planar.h"
 #include "kernel/mesh/triangulate.h"
 
 #include <algorithm>
@@ -24,14 +26,6 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 using PointRing = std::vector<std::array<double, 3>>;
 
-/// Of a point from a segment.
-Vec3 nearest_on_segment(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 way = b - a;
-  const double size = dot(way, way);
-  const double along = size > 0 ? std::clamp(dot(p - a, way) / size, 0.0, 1.0) : 0;
-  return a + along * way;
-}
-
 double distance_to(Vec3 p, const Corners& t) {
   const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
   const double size = length(normal);
@@ -41,16 +35,8 @@ double distance_to(Vec3 p, const Corners& t) {
   if (is_above) return std::abs(dot(p - t[0], normal)) / size;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i)
-    least = std::min(least, length(p - nearest_on_segment(p, t[i], t[(i + 1) % 3])));
+    least = std::min(least, detail::distance_to_segment(p, t[i], t[(i + 1) % 3]));
   return least;
-}
-
-double distance_to(Vec3 p, const Box& box) {
-  const auto beyond = [](double x, double least, double most) {
-    return std::max({least - x, x - most, 0.0});
-  };
-  return length({beyond(p.x, box.min.x, box.max.x), beyond(p.y, box.min.y, box.max.y),
-                 beyond(p.z, box.min.z, box.max.z)});
 }
 
 }  // namespace
@@ -73,7 +59,8 @@ class MeasuredSurface {
   /// `near`: a triangle that is probably near, from which the search begins.
   [[nodiscard]] Probe probe(Vec3 point, std::size_t near) const {
     Probe best{point, distance_to(point, triangles_[near]), near};
-    tree_.search([&](const Box& box) { return distance_to(point, box) < best.distance; },
+    const Box here{point, point};
+    tree_.search([&](const Box& box) { return distance_m(here, box) < best.distance; },
                  [&](int number) {
                    const double distance = distance_to(point, triangles_[at(number)]);
                    if (distance < best.distance) best = {point, distance, at(number)};

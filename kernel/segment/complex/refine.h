@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/work.h"
+#include "kernel/geometry/planar.h"
 #include "kernel/model/vec3.h"
 #include "kernel/segment/complex/vertex_pool.h"
 
@@ -38,14 +39,14 @@ inline double length(Vec2 p) { return std::sqrt(dot(p, p)); }
 /// Coordinates in a plane, counter-clockwise as seen from its front.
 class PlaneAxes {
  public:
-  explicit PlaneAxes(Vec3 normal)
-      : x_(normalised(cross(std::abs(normal.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, normal))),
-        y_(cross(normal, x_)) {}
+  explicit PlaneAxes(Vec3 normal) : axes_(axes_in(normal)) {}
 
-  [[nodiscard]] Vec2 operator()(Vec3 point) const { return {dot(x_, point), dot(y_, point)}; }
+  [[nodiscard]] Vec2 operator()(Vec3 point) const {
+    return {dot(axes_.u, point), dot(axes_.v, point)};
+  }
 
  private:
-  Vec3 x_, y_;
+  ReachAxes axes_;
 };
 
 /// An undirected edge, a < b. Its windings say for each label how many times more it holds to the

@@ -165,14 +165,11 @@ std::optional<std::vector<Loop>> FacetSplitter::loops_left(int f, const Loop& ri
 
 /// True if an edge of the ring crosses another one, or one of the facet's, other than in a vertex.
 bool FacetSplitter::crosses(int f, const Loop& ring, Vec3 normal) const {
-  const auto side = [&](int from, int to, int v) {
-    return dot(cross(point(to) - point(from), point(v) - point(from)), normal);
-  };
   const auto meets = [&](int a, int b, const Loop& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int c = loop[i], d = after(loop, i);
       if (a == c || a == d || b == c || b == d) continue;
-      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+      if (do_cross(point(a), point(b), point(c), point(d), normal)) return true;
     }
     return false;
   };

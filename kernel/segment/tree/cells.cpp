@@ -3,6 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
+#include "kernel/geometry/planar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,8 +48,7 @@ std::vector<Vec3> samples_of(std::span<const Outline> polygon, Vec3 normal) {
   const auto middle = interior_point(polygon, normal);
   if (!middle) return {};
   std::vector<Vec3> samples{*middle};
-  const Vec3 any = std::abs(normal.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
-  const Vec3 u = normalised(cross(any, normal)), v = cross(normal, u);
+  const auto [u, v] = axes_in(normal);
   const double reach = length(box.max - box.min);
   constexpr int kSteps = 8;
   for (int i = -kSteps; i <= kSteps; ++i) {

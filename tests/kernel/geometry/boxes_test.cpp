@@ -37,6 +37,15 @@ TEST_SUITE("kernel/geometry") {
     CHECK(volume_m3(intersection(kCube, {{1, 1, 1}, {5, 5, 5}})) == 1);
   }
 
+  TEST_CASE("boxes are as far apart as their nearest corners and touching ones not at all") {
+    const Box box{{0, 0, 0}, {1, 1, 1}};
+    CHECK(distance_m(box, {{1, 0, 0}, {2, 1, 1}}) == 0);
+    CHECK(distance_m(box, {{0.2, 0.2, 3}, {0.4, 5, 4}}) == 2);
+    CHECK(distance_m(box, {{4, 5, 1}, {9, 9, 9}}) == 5);
+    CHECK(distance_m({{4, 5, 1}, {9, 9, 9}}, box) == 5);
+    CHECK(distance_m({{-3, 0.5, -4}, {-3, 0.5, -4}}, box) == 5);
+  }
+
   TEST_CASE("the overlap ratio is one for the same box and none for boxes apart") {
     CHECK(intersection_over_union(kCube, kCube) == 1);
     CHECK(intersection_over_union(kCube, {{3, 3, 3}, {4, 4, 4}}) == 0);

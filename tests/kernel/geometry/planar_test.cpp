@@ -29,8 +29,8 @@ std::vector<Drawing> drawings() {
   for (const Vec3 n : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 2, 3},
                        Vec3{-3, 1, 0.1}, Vec3{1, 1, 1}, Vec3{0.2, -5, 1}}) {
     const Vec3 unit = normalised(n);
-    const Vec3 u = normalised(cross(std::abs(unit.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, unit));
-    all.push_back({{3, -4, 5}, u, cross(unit, u)});
+    const auto [u, v] = axes_in(unit);
+    all.push_back({{3, -4, 5}, u, v});
   }
   return all;
 }
@@ -139,6 +139,21 @@ TEST_SUITE("kernel/geometry") {
       CHECK(winding_part(face, d.origin - unit) == doctest::Approx(1.0 / 6).epsilon(1e-12));
       CHECK(winding_part(face, d.origin + unit) == doctest::Approx(-1.0 / 6).epsilon(1e-12));
       CHECK(winding_part(face, d.origin - 1e-6 * unit) == doctest::Approx(0.5).epsilon(1e-5));
+    }
+  }
+
+  TEST_CASE("segments cross where both run through the other one by more than the slack") {
+    for (const Drawing& d : drawings()) {
+      const auto cross_at = [&](double x0, double x1, double slack_m) {
+        return do_cross(d.at(x0, 0.5), d.at(x1, 0.5), d.at(0, 0), d.at(0, 1), d.normal(), slack_m);
+      };
+      CHECK(cross_at(-1, 1, 0));
+      CHECK_FALSE(cross_at(1, 2, 0));
+      CHECK_FALSE(cross_at(-2, -1, 0));
+      CHECK(do_cross(d.at(0, 0), d.at(2, 2), d.at(0, 2), d.at(2, 0), d.normal()));
+      CHECK_FALSE(do_cross(d.at(0, 0), d.at(2, 2), d.at(0, 2), d.at(0.5, 1.5), d.normal()));
+      CHECK(cross_at(-0.5, 1, 0.4));
+      CHECK_FALSE(cross_at(-0.5, 1, 0.6));
     }
   }
 
