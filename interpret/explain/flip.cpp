@@ -22,9 +22,6 @@ constexpr double kSharp = 1e-9;
 /// Values are stated with so many decimals.
 constexpr int kFewestDecimals = 2, kAllDecimals = 6;
 
-/// Nobody waits for the flip any longer.
-struct GivenUp {};
-
 /// A piece of a param's range on one side of the pack's value.
 struct Piece {
   std::size_t param = 0;
@@ -46,11 +43,8 @@ class FlipFinder {
       : pack_(pack), what_if_(pack, table, graph), row_(row), is_given_up_(is_given_up) {}
 
   FlipSearch run() {
-    try {
-      search();
-    } catch (const GivenUp&) {
-      search_.is_given_up = true;
-    }
+    search();
+    if (search_.is_given_up) search_.nearest.reset();
     return std::move(search_);
   }
 
@@ -64,17 +58,19 @@ class FlipFinder {
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  void leave_if_given_up() const {
-    if (is_given_up_ && is_given_up_()) throw GivenUp{};
+  bool gives_up() {
+    search_.is_given_up = search_.is_given_up || (is_given_up_ && is_given_up_());
+    return search_.is_given_up;
   }
 
   void search() {
     std::vector<Piece> pieces;
-    for (std::size_t param = 0; param < pack_.params.size(); ++param) cut(param, pieces);
+    for (std::size_t param = 0; param < pack_.params.size() && !search_.is_given_up; ++param)
+      cut(param, pieces);
     std::ranges::sort(pieces, {}, [](const Piece& p) {
       return std::tuple(p.share, p.is_between, p.param, p.tried);
     });
-    if (pack_.params.empty() || search_.params == 0) return;
+    if (search_.is_given_up || search_.params == 0) return;
     said_ = label_of(what_if_.label(0, pack_.params[0].value, at(row_)));
     for (const Piece& piece : pieces)
       if (piece.is_own) look_at(piece);
@@ -97,7 +93,7 @@ class FlipFinder {
       search_.without_range.push_back(param.name);
       return;
     }
-    leave_if_given_up();
+    if (gives_up()) return;
     ++search_.params;
     if (param.range->first == param.range->second) return;
     const TurningPoints points = turning_points(what_if_, number, row_);
@@ -154,8 +150,9 @@ class FlipFinder {
     }
   }
 
+  /// Nothing if the pack is not sound with that value, or if the search was given up.
   std::optional<Choice> choice_at(std::size_t param, double value) {
-    leave_if_given_up();
+    if (gives_up()) return std::nullopt;
     ++search_.tried;
     return what_if_.label(param, value, at(row_));
   }
@@ -197,7 +194,7 @@ class FlipFinder {
     std::size_t tries = 0;
     for (const Piece& piece : pieces) {
       if (piece.is_own) continue;
-      if (found_ && piece.share >= found_->share) return;
+      if (search_.is_given_up || (found_ && piece.share >= found_->share)) return;
       if (tries++ == most) {
         search_.reach = piece.share;
         return;
