@@ -1,14 +1,11 @@
 #include "interpret/explain/explain.h"
-#include "interpret/yaml/json_text.h"
+#include "kernel/base/text/json_text.h"
 
 #include <fmt/format.h>
 
 namespace oriel {
 
 namespace {
-
-using rules::json_number;
-using rules::json_string;
 
 const char* name_of(Outcome outcome) {
   if (outcome == Outcome::unknown) return "unknown";

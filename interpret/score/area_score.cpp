@@ -1,7 +1,7 @@
 #include "interpret/score/area_score.h"
 
 #include "interpret/surfaces/polygon_shape.h"
-#include "interpret/yaml/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 #include "kernel/geometry/boxes.h"
 
@@ -15,8 +15,6 @@
 namespace oriel {
 
 namespace {
-
-using rules::json_number;
 
 bool is_smaller(const LabelledFaces& p, const LabelledFaces& q) {
   return std::tuple(p.faces.size(), p.id) < std::tuple(q.faces.size(), q.id);
@@ -112,7 +110,7 @@ std::string area_json(const AreaScore& score) {
   for (const auto& [label, area] : score.classes)
     classes += fmt::format(
         R"({}{}:{{"both_m2":{},"predicted_m2":{},"expected_m2":{},"precision":{},"recall":{},"f1":{}}})",
-        classes.empty() ? "" : ",", rules::json_string(label), json_number(area.both_m2),
+        classes.empty() ? "" : ",", json_string(label), json_number(area.both_m2),
         json_number(area.predicted_m2), json_number(area.expected_m2),
         json_number(area.precision()), json_number(area.recall()), json_number(area.f1()));
   return fmt::format(R"("area":{{"classes":{{{}}},"macro_f1":{},"compared_m2":{}}})", classes,

@@ -1,7 +1,7 @@
 #include "interpret/score/label_diff.h"
 
-#include "interpret/yaml/json_text.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 
 #include <algorithm>
@@ -19,8 +19,6 @@ void sort_by_id(std::vector<NamedFeature>& features) {
     return std::tie(p.building, p.id) < std::tie(q.building, q.id);
   });
 }
-
-using rules::json_string;
 
 std::string label_text(const std::string& label) {
   return label.empty() ? "unknown" : printable(label);

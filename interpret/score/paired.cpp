@@ -1,7 +1,7 @@
 #include "interpret/score/paired.h"
 
-#include "interpret/yaml/json_text.h"
 #include "kernel/base/assert.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 
 #include <algorithm>
@@ -221,8 +221,8 @@ std::string difference_line(const std::string& label, const ClassDifference& d) 
 std::string difference_json(const ClassDifference& d) {
   return fmt::format(
       R"({{"first_f1":{},"second_f1":{},"difference":{},"interval":{},"only_first":{},"only_second":{},"p":{}}})",
-      rules::json_number(d.first_f1), rules::json_number(d.second_f1), rules::json_number(d.f1),
-      interval_json(d.interval), d.only_first, d.only_second, rules::json_number(d.p));
+      json_number(d.first_f1), json_number(d.second_f1), json_number(d.f1),
+      interval_json(d.interval), d.only_first, d.only_second, json_number(d.p));
 }
 
 }  // namespace
@@ -327,7 +327,7 @@ std::string to_text(const PairedComparison& comparison) {
 std::string to_json(const PairedComparison& comparison) {
   std::string classes;
   for (const auto& [label, difference] : comparison.classes)
-    classes += fmt::format("{}{}:{}", classes.empty() ? "" : ",", rules::json_string(label),
+    classes += fmt::format("{}{}:{}", classes.empty() ? "" : ",", json_string(label),
                            difference_json(difference));
   return fmt::format(R"({{"samples":{},"classes":{{{}}},"macro_f1":{}}})", comparison.samples,
                      classes, difference_json(comparison.all));

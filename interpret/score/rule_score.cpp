@@ -1,7 +1,7 @@
 #include "interpret/score/rule_score.h"
 
 #include "interpret/pack/pack.h"
-#include "interpret/yaml/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 
 #include <algorithm>
@@ -15,9 +15,6 @@
 namespace oriel {
 
 namespace {
-
-using rules::json_number;
-using rules::json_string;
 
 constexpr const char* kNoRule = "-";
 constexpr const char* kNoObject = "-";

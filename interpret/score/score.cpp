@@ -1,8 +1,8 @@
 #include "interpret/score/score.h"
 
 #include "interpret/score/match.h"
-#include "interpret/yaml/json_text.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 
 #include <algorithm>
@@ -20,9 +20,6 @@ double ratio(std::size_t part, std::size_t whole) {
   if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
   return static_cast<double>(part) / static_cast<double>(whole);
 }
-
-using rules::json_number;
-using rules::json_string;
 
 std::string percent(double share) { return std::isnan(share) ? "-" : fmt::format("{:.3f}", share); }
 

@@ -1,6 +1,6 @@
 #include "interpret/score/score_spread.h"
 
-#include "interpret/yaml/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 
 #include <algorithm>
@@ -108,14 +108,13 @@ std::string to_text(const Intervals& intervals) {
 }
 
 std::string interval_json(const ConfidenceInterval& interval) {
-  return fmt::format("[{},{}]", rules::json_number(interval.low),
-                     rules::json_number(interval.high));
+  return fmt::format("[{},{}]", json_number(interval.low), json_number(interval.high));
 }
 
 std::string intervals_json(const Intervals& intervals) {
   std::string classes;
   for (const auto& [label, interval] : intervals.f1)
-    classes += fmt::format("{}{}:{}", classes.empty() ? "" : ",", rules::json_string(label),
+    classes += fmt::format("{}{}:{}", classes.empty() ? "" : ",", json_string(label),
                            interval_json(interval));
   return fmt::format(R"("intervals":{{"samples":{},"f1":{{{}}},"macro_f1":{}}})", intervals.samples,
                      classes, interval_json(intervals.macro_f1));

@@ -1,8 +1,8 @@
 #include "interpret/score/surface_score.h"
 
 #include "interpret/surfaces/polygon_shape.h"
-#include "interpret/yaml/json_text.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 
 #include <algorithm>
@@ -156,27 +156,25 @@ std::string to_json(const SurfaceScore& score, bool with_differences) {
   for (const std::string& type : types_of(score)) {
     const auto [theirs, ours] = areas_of(score, type);
     classes += fmt::format(R"({}{}:{{"theirs_m2":{},"ours_m2":{},"precision":{},"recall":{}}})",
-                           classes.empty() ? "" : ",", rules::json_string(type),
-                           rules::json_number(theirs), rules::json_number(ours),
-                           rules::json_number(score.precision(type)),
-                           rules::json_number(score.recall(type)));
+                           classes.empty() ? "" : ",", json_string(type), json_number(theirs),
+                           json_number(ours), json_number(score.precision(type)),
+                           json_number(score.recall(type)));
   }
   for (const auto& [pair, area] : score.area_m2)
-    confusion += fmt::format(R"({}{{"theirs":{},"ours":{},"area_m2":{}}})",
-                             confusion.empty() ? "" : ",", rules::json_string(pair.first),
-                             rules::json_string(pair.second), rules::json_number(area));
+    confusion +=
+        fmt::format(R"({}{{"theirs":{},"ours":{},"area_m2":{}}})", confusion.empty() ? "" : ",",
+                    json_string(pair.first), json_string(pair.second), json_number(area));
   std::string differences;
   for (const SurfaceDifference& d : score.differences)
     differences += fmt::format(
         R"({}{{"building":{},"polygon":{},"theirs":{},"ours":{},"area_m2":{},"place":[{},{},{}]}})",
-        differences.empty() ? "" : ",", rules::json_string(d.building), d.polygon,
-        rules::json_string(d.theirs), rules::json_string(d.ours), rules::json_number(d.area_m2),
-        rules::json_number(d.place.x), rules::json_number(d.place.y),
-        rules::json_number(d.place.z));
+        differences.empty() ? "" : ",", json_string(d.building), d.polygon, json_string(d.theirs),
+        json_string(d.ours), json_number(d.area_m2), json_number(d.place.x), json_number(d.place.y),
+        json_number(d.place.z));
   std::string text = fmt::format(
       R"({{"surfaces":{{{}}},"agreement":{},"polygons":{},"openings_m2":{},"unnamed_m2":{},"confusion":[{}])",
-      classes, rules::json_number(score.agreement()), score.polygons,
-      rules::json_number(score.openings_m2), rules::json_number(score.unnamed_m2), confusion);
+      classes, json_number(score.agreement()), score.polygons, json_number(score.openings_m2),
+      json_number(score.unnamed_m2), confusion);
   if (with_differences) text += fmt::format(R"(,"differences":[{}])", differences);
   return text + "}";
 }

@@ -1,4 +1,4 @@
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/json/raw_json.h"
 #include "oriel/energy.h"
 

@@ -1,5 +1,5 @@
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/cityjson/cityjson_source.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/json/raw_json.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/energy.h"

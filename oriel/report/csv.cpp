@@ -1,4 +1,4 @@
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/report/forms.h"
 

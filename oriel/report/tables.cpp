@@ -1,7 +1,7 @@
 #include "oriel/report/tables.h"
 
 #include "kernel/base/text/counted.h"
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "oriel/report/cells.h"
 
 #include <algorithm>

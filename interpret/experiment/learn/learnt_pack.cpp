@@ -1,7 +1,7 @@
 #include "interpret/experiment/learn/learnt_pack.h"
 
-#include "interpret/yaml/json_text.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/printable.h"
 
 #include <cmath>
@@ -12,9 +12,6 @@
 namespace oriel {
 
 namespace {
-
-using rules::json_number;
-using rules::json_string;
 
 /// "0.6 m", as a pack states it.
 std::string text_of_value(const RuleBase& rules, const std::string& param, double value) {

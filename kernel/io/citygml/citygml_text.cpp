@@ -1,8 +1,8 @@
 #include "kernel/io/citygml/citygml_text.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/citygml/write/xml_text.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/json/words.h"
 
 #include <algorithm>

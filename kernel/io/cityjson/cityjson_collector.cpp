@@ -1,8 +1,8 @@
 #include "kernel/io/cityjson/cityjson_collector.h"
 
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/cityjson/write/geometry_text.h"
 #include "kernel/io/cityjson/write/vertex_pool.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/json/raw_json.h"
 #include "kernel/io/levels/written_grid.h"
 

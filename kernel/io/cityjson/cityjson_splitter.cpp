@@ -1,10 +1,10 @@
 #include "kernel/io/cityjson/cityjson_splitter.h"
 
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/cityjson/cityjson_objects.h"
 #include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/io/cityjson/write/fresh_cityjson.h"
 #include "kernel/io/cityjson/write/geometry_text.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/json/raw_json.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "kernel/io/mesh/mesh_writer.h"
 
 #include "kernel/base/index.h"
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #include "kernel/io/objects/city_value.h"
 
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -1,7 +1,7 @@
 #include "kernel/io/records/feature_records.h"
 
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/files/input.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/records/record_text.h"
 #include "kernel/model/description/feature_names.h"

@@ -1,5 +1,5 @@
 #include "kernel/base/text/counted.h"
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/record_text.h"
 

@@ -1,5 +1,5 @@
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/json/json_check.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/records/record_text.h"
 
 #include <algorithm>

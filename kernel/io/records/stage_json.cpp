@@ -1,6 +1,6 @@
 #include "kernel/io/records/stage_json.h"
 
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/model/description/feature_names.h"
 
 #include <algorithm>

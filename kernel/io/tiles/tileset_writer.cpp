@@ -210,7 +210,7 @@ class TilesetWriter {
     if (!choose_buildings()) return {std::nullopt, std::move(issues_)};
     const Tile root = detail::tile_tree(items_, options_.scales.size(), options_.most_triangles);
     ordered_json tree = json_of(root);
-    tree["transform"] = matrix_of(frame_->placement());
+    tree["transform"] = matrix_of(frame_.placement());
     const ordered_json tileset{
         {"asset", {{"version", "1.1"}, {"generator", std::string("oriel ") + kVersion}}},
         {"schema", schema()},
@@ -251,15 +251,15 @@ class TilesetWriter {
       issues_.push_back(building_issue(
           Severity::warning, Code::E169, "",
           "no face has a material with a colour: faces are coloured by their type of surface"));
-    frame_ = std::move(frame.value);
-    if (!frame_) return false;
+    if (!frame.value) return false;
+    frame_ = std::move(*frame.value);
     for (const TileEntry* entry : entries)
       if (!place(*entry)) return false;
     return true;
   }
 
   bool place(const TileEntry& entry) {
-    const auto placement = frame_->placement_of(entry);
+    const auto placement = frame_.placement_of(entry);
     if (!placement) {
       issues_.push_back(building_issue(Severity::error, Code::E160, entry.id,
                                        "has no place on the earth in this system"));
@@ -318,7 +318,7 @@ class TilesetWriter {
   std::string folder_;
   const TileBuildings& buildings_;
   TilesetOptions options_;
-  std::optional<TilesetFrame> frame_;
+  TilesetFrame frame_;
   std::vector<TileItem> items_;
   std::vector<Placement> placements_;  ///< parallel to `items_`
   std::vector<Issue> issues_;

@@ -1,11 +1,11 @@
 #include "kernel/io/citygml/write/citygml_writer.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/xml.h"
 #include "kernel/io/citygml/write/gml_attributes.h"
 #include "kernel/io/citygml/write/gml_levels.h"
 #include "kernel/io/citygml/write/xml_text.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/objects/city_record.h"
 #include "kernel/io/objects/closed_installations.h"
 

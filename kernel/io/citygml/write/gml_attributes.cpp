@@ -1,9 +1,9 @@
 #include "kernel/io/citygml/write/gml_attributes.h"
 
+#include "kernel/base/text/json_text.h"
 #include "kernel/base/text/xml.h"
 #include "kernel/io/citygml/write/xml_text.h"
 #include "kernel/io/citygml/xml_node.h"
-#include "kernel/io/json/json_text.h"
 
 #include <algorithm>
 #include <array>

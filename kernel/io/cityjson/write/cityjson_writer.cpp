@@ -1,10 +1,10 @@
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/cityjson/cityjson_geometry.h"
 #include "kernel/io/cityjson/lod_name.h"
 #include "kernel/io/cityjson/write/fresh_cityjson.h"
 #include "kernel/io/cityjson/write/geometry_text.h"
 #include "kernel/io/cityjson/write/semantics_text.h"
 #include "kernel/io/cityjson/write/vertex_pool.h"
-#include "kernel/io/json/json_text.h"
 #include "kernel/io/json/raw_json.h"
 #include "kernel/io/writer.h"
 

@@ -1,6 +1,6 @@
 #include "kernel/io/cityjson/write/fresh_cityjson.h"
 
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 
 #include <algorithm>
 #include <array>

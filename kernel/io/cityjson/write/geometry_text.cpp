@@ -1,6 +1,6 @@
 #include "kernel/io/cityjson/write/geometry_text.h"
 
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 #include "kernel/io/json/raw_json.h"
 
 #include <algorithm>

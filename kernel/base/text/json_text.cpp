@@ -1,6 +1,4 @@
-#include "kernel/io/json/json_text.h"
-
-#include "kernel/io/json/text.h"
+#include "kernel/base/text/json_text.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +7,7 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 namespace oriel::detail {
 
@@ -47,9 +46,9 @@ bool is_plain(std::string_view text) {
 /// `text` with every byte that is no UTF-8 replaced by U+FFFD.
 std::string repaired(std::string_view text) {
   std::string result;
-  while (const auto bad = find_non_utf8(text)) {
-    result.append(text.substr(0, *bad)).append("\xEF\xBF\xBD");
-    text.remove_prefix(*bad + 1);
+  for (std::size_t bad = 0; (bad = utf8::find_invalid(text)) != std::string_view::npos;) {
+    result.append(text.substr(0, bad)).append("\xEF\xBF\xBD");
+    text.remove_prefix(bad + 1);
   }
   return result.append(text);
 }
@@ -63,7 +62,7 @@ void append_json(std::string& out, std::string_view text) {
     text.copy(out.data() + start, text.size());
     return;
   }
-  if (find_non_utf8(text)) return append_json(out, std::string_view(repaired(text)));
+  if (!utf8::is_valid(text)) return append_json(out, std::string_view(repaired(text)));
   out += '"';
   while (!text.empty()) {
     const auto plain =
@@ -104,3 +103,17 @@ std::string shortest(double number) {
 }
 
 }  // namespace oriel::detail
+
+namespace oriel {
+
+std::string json_string(std::string_view text) {
+  std::string quoted;
+  detail::append_json(quoted, text);
+  return quoted;
+}
+
+std::string json_number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+}  // namespace oriel

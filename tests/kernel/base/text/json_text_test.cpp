@@ -1,4 +1,4 @@
-#include "kernel/io/json/json_text.h"
+#include "kernel/base/text/json_text.h"
 
 #include <cmath>
 #include <limits>
@@ -10,7 +10,7 @@
 namespace oriel::detail {
 namespace {
 
-TEST_SUITE("kernel/io") {
+TEST_SUITE("kernel/base") {
   TEST_CASE("any bytes make a JSON string and UTF-8 survives") {
     CHECK(rc::check([](const std::string& bytes) {
       std::string text;

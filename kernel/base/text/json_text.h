@@ -1,7 +1,5 @@
 #pragma once
 
-#include "kernel/model/vec3.h"
-
 #include <array>
 #include <cstdint>
 #include <string>
@@ -48,7 +46,8 @@ void append_field(std::string& out, std::string_view key, const Value& value) {
 }
 
 /// `key:[x,y,z]`.
-inline void append_vector(std::string& out, std::string_view key, Vec3 v) {
+template <class Vector>
+void append_vector(std::string& out, std::string_view key, const Vector& v) {
   append_json_key(out, key);
   append_json_array(out, std::array{v.x, v.y, v.z});
 }
@@ -78,3 +77,14 @@ void append_objects(std::string& out, std::string_view key, const Values& values
 }
 
 }  // namespace oriel::detail
+
+namespace oriel {
+
+/// A text as append_json() writes it.
+std::string json_string(std::string_view text);
+
+/// `value` with the fewest digits that read back to the same double, without an exponent from 1e-4
+/// to 1e16; null if it is not finite.
+std::string json_number(double value);
+
+}  // namespace oriel
