@@ -12,6 +12,16 @@ namespace {
 
 [[noreturn]] void refuse_body(const std::string& sentence) { throw RefusedRequest(400, sentence); }
 
+constexpr int kMaxLevels = 1000;
+
+/// Stops the parser at a level too many: taking down a value of millions takes seconds.
+bool check_level(int above, StudioJson::parse_event_t event, const StudioJson&) {
+  using Event = StudioJson::parse_event_t;
+  if (above >= kMaxLevels && (event == Event::array_start || event == Event::object_start))
+    refuse_body(fmt::format("the body of the request is nested deeper than {} levels", kMaxLevels));
+  return true;
+}
+
 std::size_t whole_number(const StudioJson& value, const char* key, std::size_t end,
                          const char* what) {
   if (!value.is_number_integer())
@@ -25,7 +35,7 @@ std::size_t whole_number(const StudioJson& value, const char* key, std::size_t e
 }  // namespace
 
 RequestBody::RequestBody(std::string_view text)
-    : json_(text.empty() ? StudioJson::object() : StudioJson::parse(text, nullptr, false)) {
+    : json_(text.empty() ? StudioJson::object() : StudioJson::parse(text, check_level, false)) {
   if (json_.is_discarded()) refuse_body("the body of the request is not valid JSON");
   if (!json_.is_object()) refuse_body("the body of the request is not a JSON object");
 }
