@@ -12,9 +12,9 @@ namespace oriel::studio {
 
 namespace {
 
-/// Connections that may wait: pages ask for many things at the same time, and a worker that is
-/// started again takes none for a moment.
-constexpr int kMostWaiting = 256;
+/// Connections that may wait: a worker that is started again takes none for a moment, and one that
+/// finds no room here tries again only after a second.
+constexpr int kMostWaiting = 4096;
 
 void set_option(int descriptor, int level, int option) {
   const int on = 1;

@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kMostBodyBytes = 8U << 20U;
 /// good as a wrong one.
 struct RequestHead {
   std::string method;
-  /// Decoded, without what follows a `?`.
+  /// As it was sent, without what follows a `?`.
   std::string path;
   std::optional<std::string> host, origin, fetch_site, token, content_type, content_length;
   bool has_range = false;

@@ -1,6 +1,6 @@
 #include "studio/server/serve.h"
 
-#include "studio/server/http/http_server.h"
+#include "studio/server/http_server.h"
 #include "studio/server/listening_socket.h"
 #include "studio/server/supervisor.h"
 #include "studio/server/token.h"
@@ -10,7 +10,6 @@
 namespace oriel::studio {
 
 bool serve(const SessionOptions& session, const ServeOptions& options) {
-  HttpServer::load_module();
   const ListeningSocket socket(options.port);
   const ServedAt served{socket.port(), random_token()};
   options.begun(fmt::format("http://127.0.0.1:{}/?token={}", served.port, served.token));

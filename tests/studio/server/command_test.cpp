@@ -1,5 +1,6 @@
 #include "tests/studio/server/raw_request.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -8,8 +9,10 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <spawn.h>
 #include <string>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -22,6 +25,7 @@
 using nlohmann::json;
 using oriel::test::answer_to;
 using oriel::test::body_in;
+using oriel::test::RawClient;
 using oriel::test::status_in;
 
 namespace {
@@ -85,7 +89,10 @@ class StudioCommand {
   /// The answer to a verb, with its status. A request that a dying worker took is made again, as
   /// the page does.
   [[nodiscard]] std::pair<int, json> ask(const std::string& verb, const json& body) const {
-    const std::string text = body.dump();
+    return ask_by_text(verb, body.dump());
+  }
+  [[nodiscard]] std::pair<int, json> ask_by_text(const std::string& verb,
+                                                 const std::string& text) const {
     const std::string request = fmt::format(
         "POST /api/{} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nX-Oriel-Token: {}\r\n"
         "Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{}",
@@ -138,6 +145,35 @@ class StudioCommand {
   int port_ = 0;
   bool is_running_ = true;
 };
+
+/// Raises how many descriptors this process may have, until it goes.
+class MoreDescriptors {
+ public:
+  explicit MoreDescriptors(rlim_t count) {
+    REQUIRE(::getrlimit(RLIMIT_NOFILE, &before_) == 0);
+    const rlimit more{std::max(before_.rlim_cur, count), before_.rlim_max};
+    REQUIRE(::setrlimit(RLIMIT_NOFILE, &more) == 0);
+  }
+  ~MoreDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  MoreDescriptors(const MoreDescriptors&) = delete;
+  MoreDescriptors& operator=(const MoreDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+bool is_quick(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::steady_clock::now() - begin < std::chrono::seconds(1);
+}
+
+/// An object with a member that has so many levels of lists.
+std::string nested(std::size_t levels) {
+  return "{\"a\":" + std::string(levels, '[') + std::string(levels, ']') + "}";
+}
+
+constexpr const char* kHead = "POST /api/state HTTP/1.1\r\nContent-Length: 9\r\n";
 
 }  // namespace
 
@@ -212,22 +248,35 @@ TEST_SUITE("studio/server") {
     CHECK(fs::exists(folder / "pack.yaml"));
   }
 
-  TEST_CASE("a program without its HTTP module does all but the studio") {
+  TEST_CASE("a studio answers within a second beside forty clients that send slowly") {
     const StudioFolder folder;
-    fs::create_directory(folder / "bin");
-    fs::copy_file(ORIEL_COMMAND, folder / "bin/oriel");
-    const auto status_of = [&](const std::string& words) {
-      const std::string line =
-          fmt::format("'{}' {} >'{}' 2>&1", folder / "bin/oriel", words, folder / "said");
-      return WEXITSTATUS(std::system(line.c_str()));
-    };
-    CHECK(status_of("--version") == 0);
-    CHECK(status_of(fmt::format("studio --no-browser '{}'", kHouse)) == 5);
-    std::ifstream said(folder / "said");
-    const std::string text{std::istreambuf_iterator<char>(said), {}};
-    CHECK(text.find(
-              "oriel/studio/oriel-http.so: E101 the part of oriel that serves its studio cannot be "
-              "loaded: there is no such file; install oriel again") != std::string::npos);
-    CHECK(text.find("http://") == std::string::npos);
+    const StudioCommand studio(folder, "studio", {kHouse});
+    std::vector<RawClient> clients;
+    for (int i = 0; i < 40; ++i) clients.emplace_back(studio.port()).send(i % 2 == 0 ? "G" : kHead);
+    CHECK(is_quick([&] { CHECK(studio.ask("state", json::object()).first == 200); }));
+    for (RawClient& client : clients) client.send("E");
+    CHECK(is_quick([&] { CHECK(studio.ask("state", json::object()).first == 200); }));
+  }
+
+  TEST_CASE("a studio answers within a second beside two thousand connections") {
+    const MoreDescriptors room(2200);
+    const StudioFolder folder;
+    const StudioCommand studio(folder, "studio", {kHouse});
+    std::vector<RawClient> clients;
+    for (int i = 0; i < 2000; ++i) clients.emplace_back(studio.port());
+    CHECK(is_quick([&] { CHECK(studio.ask("state", json::object()).first == 200); }));
+  }
+
+  TEST_CASE("a studio refuses a body of four million brackets within a second") {
+    const StudioFolder folder;
+    const StudioCommand studio(folder, "studio", {kHouse});
+    for (const std::string& text : {std::string(4U << 20U, '['), nested(1000), nested(2000)}) {
+      std::pair<int, json> answer;
+      CHECK(is_quick([&] { answer = studio.ask_by_text("state", text); }));
+      CHECK(answer.first == 400);
+      CHECK(
+          (answer.second["error"] == "the body of the request is nested deeper than 1000 levels"));
+    }
+    CHECK(studio.ask_by_text("state", nested(999)).first == 200);
   }
 }

@@ -1,4 +1,4 @@
-#include "studio/server/http/http_server.h"
+#include "studio/server/http_server.h"
 
 #include "studio/server/listening_socket.h"
 #include "studio/server/page_files.h"
@@ -22,18 +22,22 @@
 using namespace oriel::studio;
 using oriel::test::answer_to;
 using oriel::test::body_in;
+using oriel::test::RawClient;
 using oriel::test::status_in;
 
 namespace {
 
 const std::string kToken = "0123456789abcdef0123456789abcdef";
+/// More than the system keeps for a client that does not read.
+constexpr std::size_t kLongAnswer = 64U << 20U;
 
 /// A server with a session that repeats what it was asked, on a port that the system chooses.
 class TestServer {
  public:
-  TestServer()
-      : server_(socket_.descriptor(), {socket_.port(), kToken},
-                [this](auto verb, auto body) { return answer(verb, body); }),
+  explicit TestServer(HttpLimits limits = {})
+      : server_(
+            socket_.descriptor(), {socket_.port(), kToken},
+            [this](auto verb, auto body) { return answer(verb, body); }, limits),
         thread_([this] { server_.run(); }) {
     // The accepting thread is there once something is answered, and can be stopped then.
     CHECK(status_in(ask("GET", "/", "", "")) == 403);
@@ -68,6 +72,7 @@ class TestServer {
     ++asked_;
     if (verb == "memory") throw std::bad_alloc();
     if (verb == "fault") throw std::runtime_error("<b>a fault</b>");
+    if (verb == "long") return {200, std::string(kLongAnswer, 'a')};
     if (verb == "slow") std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const nlohmann::ordered_json json{{"verb", verb}, {"body", body}};
     return {200, json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)};
@@ -233,6 +238,76 @@ TEST_SUITE("studio/server") {
     }
     CHECK(good == 16);
     CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(1200));
+  }
+
+  TEST_CASE("a client that sends its head or its body too slowly is closed") {
+    const auto limit = std::chrono::milliseconds(150);
+    const TestServer server({.head = limit, .body = limit});
+    const std::string body = fmt::format(
+        "POST /api/state HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nX-Oriel-Token: {}\r\n"
+        "Content-Type: application/json\r\nContent-Length: 1000\r\n\r\n",
+        server.port(), kToken);
+    // The last one sends nothing at all.
+    for (const std::string& begin : {std::string("GET /"), body, std::string()}) {
+      CAPTURE(begin);
+      RawClient client(server.port());
+      client.send(begin);
+      std::atomic<bool> is_closed = false;
+      std::thread dripping([&] {
+        while (!is_closed && !begin.empty()) {
+          client.send("a");
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+      });
+      const auto from = std::chrono::steady_clock::now();
+      CHECK(client.read().empty());
+      const auto time = std::chrono::steady_clock::now() - from;
+      is_closed = true;
+      dripping.join();
+      CHECK(time > limit / 2);
+      CHECK(time < std::chrono::seconds(2));
+    }
+    CHECK(server.asked() == 0);
+  }
+
+  TEST_CASE("a client that does not read its answer or goes on sending is closed") {
+    const auto limit = std::chrono::milliseconds(60);
+    const TestServer server({.answer = limit, .rest = limit});
+    RawClient sending(server.port());
+    sending.send("GARBAGE\r\n\r\n");
+    CHECK(status_in(sending.read()) == 400);
+    std::this_thread::sleep_for(3 * limit);
+    sending.send("a");
+    sending.send("a");
+    CHECK(sending.is_refused());
+    RawClient deaf(server.port());
+    deaf.send(
+        fmt::format("POST /api/long HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nX-Oriel-Token: {}\r\n"
+                    "Content-Type: application/json\r\nContent-Length: 0\r\n\r\n",
+                    server.port(), kToken));
+    while (server.asked() == 0) std::this_thread::yield();
+    std::this_thread::sleep_for(10 * limit);
+    CHECK(deaf.read().size() < kLongAnswer);
+  }
+
+  TEST_CASE("a head that is too long is refused") {
+    const TestServer server;
+    CHECK(status_in(server.ask("GET", "/", "X-A: " + std::string(60000, 'a') + "\r\n", "")) == 403);
+    CHECK(status_in(server.ask("GET", "/", "X-A: " + std::string(1U << 20U, 'a'), "")) == 431);
+  }
+
+  TEST_CASE("one connection more than there may be closes the oldest that is waited for") {
+    const TestServer server({.connections = 4});
+    std::string slow;
+    std::thread page([&] { slow = server.post("slow", "{}"); });
+    while (server.asked() == 0) std::this_thread::yield();
+    std::vector<RawClient> clients;
+    for (int i = 0; i < 9; ++i) clients.emplace_back(server.port()).send("GET / HTTP/1.1\r\n");
+    CHECK(clients[0].read().empty());
+    clients[8].send("\r\n");
+    CHECK(status_in(clients[8].read()) == 403);
+    page.join();
+    CHECK(status_in(slow) == 200);
   }
 
   TEST_CASE("a port that is taken is not shared") {

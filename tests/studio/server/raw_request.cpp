@@ -11,22 +11,39 @@
 
 namespace oriel::test {
 
-std::string answer_to(int port, const std::string& bytes, bool ends) {
-  const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+RawClient::RawClient(int port) : descriptor_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  REQUIRE(::connect(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
-  // The other side may have answered, and closed, before it has read everything.
-  ::send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-  if (ends) ::shutdown(descriptor, SHUT_WR);
+  REQUIRE(::connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
+}
+
+RawClient::~RawClient() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void RawClient::send(const std::string& bytes) {
+  ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+}
+
+void RawClient::end() { ::shutdown(descriptor_, SHUT_WR); }
+
+bool RawClient::is_refused() const { return ::send(descriptor_, "a", 1, MSG_NOSIGNAL) < 0; }
+
+std::string RawClient::read() {
   std::string answer;
   std::array<char, 4096> part{};
-  for (ssize_t count = 0; (count = ::recv(descriptor, part.data(), part.size(), 0)) > 0;)
+  for (ssize_t count = 0; (count = ::recv(descriptor_, part.data(), part.size(), 0)) > 0;)
     answer.append(part.data(), static_cast<std::size_t>(count));
-  ::close(descriptor);
   return answer;
+}
+
+std::string answer_to(int port, const std::string& bytes, bool ends) {
+  RawClient client(port);
+  client.send(bytes);
+  if (ends) client.end();
+  return client.read();
 }
 
 int status_in(const std::string& answer) {

@@ -1,8 +1,31 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace oriel::test {
+
+/// A connection to a port of 127.0.0.1.
+class RawClient {
+ public:
+  explicit RawClient(int port);
+  ~RawClient();
+  RawClient(RawClient&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
+
+  /// The other side may have answered, and closed, before it has read everything.
+  void send(const std::string& bytes);
+  /// Says that nothing more is sent.
+  void end();
+  /// True if the other side has closed, and takes nothing more.
+  [[nodiscard]] bool is_refused() const;
+  /// All that comes until the other side closes.
+  std::string read();
+
+ private:
+  int descriptor_;
+};
 
 /// The whole answer to bytes that are sent to a port of 127.0.0.1, which is read until the other
 /// side closes. With `ends` nothing more is sent after them.
