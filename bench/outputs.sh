@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
-# Writes what all commands put out over the samples and ../shared (or $ORIEL_SHARED), stdout, stderr, exit codes and files, into
-# a folder. Made before and after a change, `diff -rq BEFORE AFTER` says what the change did to users.
-#   bench/outputs.sh PROGRAM FOLDER [WORD]    with a WORD only runs whose names have it; PROGRAM as built, absolute or relative
+# Writes what all commands put out over the samples and ../shared (or $ORIEL_SHARED): stdout, stderr, exit codes and files, each
+# run in a folder of its own, and the hashes of all of them. Made before and after a change, `diff BEFORE/hashes AFTER/hashes`
+# says what the change did to users.
+#   bench/outputs.sh [--keep] PROGRAM FOLDER [WORD]
+# PROGRAM as built, absolute or relative; with a WORD only runs whose names have it. Without --keep only the hashes stay.
 set -euo pipefail
+keep=
+if [ "${1:-}" = --keep ]; then keep=yes; shift; fi
 program=$(realpath "$1")
 [ -x "$program" ] || { echo "no program at $1" >&2; exit 2; }
 mkdir -p "$2"
@@ -38,7 +42,10 @@ run() {
   sed -i "s#$out/##g" "$out/$name/stderr"
 }
 
-# all NAME FILES…: every command over these files.
+scales="1:500 1:1000 1:2500 1:5000 1:10000 1:25000"
+formats="citygml2 citygml3 gpkg obj off ply stl glb"
+
+# all NAME FILES…: every command over these files, every scale and every format.
 all() {
   local name=$1
   shift
@@ -49,24 +56,34 @@ all() {
   run "$name-label-why" label "$@" -o @/ --explain --ignore-semantics
   run "$name-validate" validate "$@" --json
   run "$name-repair" repair "$@" -o @/ --report @/report.jsonl
-  run "$name-scale" generalise "$@" --scale 1:5000 -o @/ --explain @/why.txt --metrics @/metrics.jsonl
+  for scale in $scales; do
+    run "$name-${scale/:/-}" generalise "$@" --scale "$scale" -o @/ --explain @/why.txt --metrics @/metrics.jsonl
+  done
+  run "$name-cartographic" generalise "$@" --scale 1:2500 --rules cartographic -o @/ --explain @/why.txt
   run "$name-lod" generalise "$@" --to-lod 2.0,1.2 -o @/ --explain @/why.jsonl
-  run "$name-cat" cat "$@" -o @/cat.city.jsonl
+  run "$name-lod-low" generalise "$@" --to-lod 1.3,1.0 -o @/
+  run "$name-series" generalise "$@" --series 1:1000,1:2500,1:10000 -o @/all
+  run "$name-tiles" tiles "$@" --crs local -o @/tiles
+  run "$name-cat" cat "$@" -o @/
+  for format in $formats; do run "$name-$format" label "$@" --to "$format" -o @/; done
 }
 
 all samples samples/*.stripped.city.json
-all random3dcity data/random3dcity/*.stripped.city.json
-all ingolstadt data/ingolstadt/*.stripped.city.json
-all ogc data/ogc-simple-house/*.stripped.city.json
-all delft-blocks data/delft-blocks/*.stripped.city.json
-all noisy data/houses/noisy/*.stripped.city.json
-all triangles data/houses/triangles/*0.stripped.city.json
+for set in random3dcity ingolstadt ogc-simple-house delft-blocks; do all "$set" "data/$set"/*.stripped.city.json; done
+for set in houses houses-b houses-c; do
+  for kind in clean noisy triangles; do all "$set-$kind" "data/$set/$kind"/*.stripped.city.json; done
+done
 all 3dbag data/3dbag/tile_5910.city.jsonl --random 4
-run 3dbag-levels generalise data/3dbag/tile_5910.city.jsonl --random 4 --to-lod 1.3,1.0 -o @/lods.city.jsonl
+run 3dbag-label label data/3dbag/tile_5910.city.jsonl -o @/out.city.jsonl --features @/parts.jsonl
+all delfshaven data/delfshaven/delfshaven.city.json --random 8
 run delfshaven-label label data/delfshaven/delfshaven.city.json -o @/out.city.json --features @/parts.jsonl
-run delfshaven-repair repair data/delfshaven/delfshaven.city.json --random 4 -o @/out.city.json --close any
-run clean-label label data/houses/clean/*.stripped.city.json -o @/ --features @/parts.jsonl
-run clean-scale generalise data/houses/clean/*0.stripped.city.json --scale 1:2500 -o @/ --rules cartographic
+run delfshaven-close repair data/delfshaven/delfshaven.city.json --random 4 -o @/out.city.json --close any
+for file in data/cases/*/*.{city.json,city.jsonl,gml,obj,off,stl}; do
+  name=cases-$(basename "$(dirname "$file")")-$(basename "$file")
+  run "$name-label" label "$file" -o @/ --features @/parts.csv
+  run "$name-validate" validate "$file" --json
+  run "$name-scale" generalise "$file" --scale 1:5000 -o @/
+done
 for file in crash-conformance-file.city.json crash-ground-facet.city.jsonl e901-balanced-tree.city.jsonl e901-doubled-solid.city.jsonl \
   hang-insets-real.city.jsonl hang-insets.city.jsonl mini_level.city.json mini_threshold.city.json ub-collect-overflow.city.jsonl; do
   run "faults-$file" label "data/faults/$file" -o "@/$file" --features @/parts.csv
@@ -110,7 +127,7 @@ run 3dbag-series generalise data/3dbag/tile_5910.city.jsonl --random 16 --series
   run score-area score "$out/samples-label/parts.jsonl" --truth samples --models samples/*.stripped.city.json
   run interpret interpret "$out/random3dcity-label/parts.jsonl" -o @/again.jsonl
   run interpret-first interpret "$out/samples-label/parts.jsonl" --rules first_pack.yaml
-  run diff diff "$out/samples-label/parts.jsonl" "$out/noisy-label/parts.jsonl" --json
+  run diff diff "$out/samples-label/parts.jsonl" "$out/houses-noisy-label/parts.jsonl" --json
 }
 run score-surfaces score --surfaces samples/*.labelled.city.json
 run split split data/3dbag/tile_5910.city.jsonl --count 100 -o @/tile
@@ -128,3 +145,7 @@ run help --help
 for command in cat collect split merge segment label generalise repair explain view interpret diff score validate; do
   run "help-$command" "$command" --help
 done
+
+(cd "$out" && find . -type f ! -path ./hashes -print0 | sort -z | xargs -0 sha256sum) >"$work/hashes"
+mv "$work/hashes" "$out/hashes"
+[ -n "$keep" ] || find "$out" -mindepth 1 -maxdepth 1 -type d -exec rm -r {} +
