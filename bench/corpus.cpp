@@ -2,7 +2,7 @@
 /// solids and cells, how long a building takes, and why leaves that are not convex stayed whole.
 /// `bench_corpus NAME LOD INPUT…`, LOD `-` for the highest; bench/corpus.sh runs it.
 #include "bench/timing.h"
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 

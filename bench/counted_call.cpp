@@ -1,6 +1,6 @@
 /// One call of segment() or solidify() for callgrind to count: `bench_counted_call segment INPUT
 /// ORDER` or `bench_counted_call solidify INPUT`. bench/instructions.sh runs it.
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 

@@ -10,11 +10,11 @@
 /// themselves.
 #include "bench/peak_memory.h"
 #include "bench/timing.h"
-#include "interpret/experiment/count_variants.h"
 #include "interpret/labelling/interpret.h"
+#include "interpret/learn/count_variants.h"
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/random.h"
-#include "oriel/experiments/learn.h"
+#include "oriel/learn.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
 
 #include <string>
 #include <vector>

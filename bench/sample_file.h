@@ -3,8 +3,8 @@
 #include "examples/generator/generate.h"
 #include "examples/generator/output/cityjson.h"
 #include "examples/generator/random.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/reader.h"
+#include "io/files/output_file.h"
+#include "io/reader.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -1,7 +1,7 @@
 /// Prints the milliseconds that solidify() and segment() take for the building of a file, medians
 /// of RUNS calls: `bench_timed_calls INPUT natural|paper RUNS`. bench/peers.sh runs it.
 #include "bench/timing.h"
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 

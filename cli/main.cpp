@@ -5,10 +5,10 @@
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/usage_advice.h"
 #include "cli/version/version_text.h"
+#include "io/files/output_file.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/own_fault.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/files/output_file.h"
 
 #include <cerrno>
 #include <csignal>

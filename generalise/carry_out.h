@@ -3,8 +3,8 @@
 #include "generalise/invariants/invariants.h"
 #include "generalise/needs.h"
 #include "kernel/base/code.h"
-#include "kernel/model/plan.h"
 #include "kernel/segment/remove.h"
+#include "model/plan.h"
 
 #include <vector>
 

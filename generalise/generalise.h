@@ -2,14 +2,14 @@
 
 #include "generalise/carry_out.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/building.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/interpretation.h"
-#include "kernel/model/labelled_building.h"
-#include "kernel/model/plan.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
 #include "kernel/segment/segment.h"
+#include "model/building.h"
+#include "model/description/feature_table.h"
+#include "model/interpretation.h"
+#include "model/labelled_building.h"
+#include "model/plan.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <map>
 #include <string>

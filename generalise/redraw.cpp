@@ -4,8 +4,8 @@
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/vec3.h"
 #include "kernel/segment/flush/draw_imprints.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/plan.h"
-#include "kernel/model/segmentation.h"
+#include "model/plan.h"
+#include "model/segmentation.h"
 
 #include <string>
 #include <vector>

@@ -3,8 +3,8 @@
 #include "generalise/generalise.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/work.h"
-#include "kernel/model/tolerances.h"
-#include "kernel/model/vec3.h"
+#include "model/tolerances.h"
+#include "model/vec3.h"
 
 #include <functional>
 

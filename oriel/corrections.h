@@ -3,9 +3,9 @@
 /// Corrections that people made (docs/formats.md, corrections.jsonl): read_corrections reads them,
 /// Corrections finds their features, label() follows LabelOptions::corrections, and truth is made
 /// of them here.
-#include "interpret/experiment/sample.h"
 #include "interpret/labelling/corrections.h"
-#include "kernel/io/records/corrections.h"  // IWYU pragma: export
+#include "interpret/learn/sample.h"
+#include "io/records/corrections.h"  // IWYU pragma: export
 #include "oriel/result.h"
 #include "oriel/score.h"
 

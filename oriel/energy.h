@@ -1,9 +1,9 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
-#include "kernel/io/document.h"
-#include "kernel/model/building.h"
-#include "kernel/model/vec3.h"
+#include "io/document.h"
+#include "model/building.h"
+#include "model/vec3.h"
 #include "oriel/options.h"
 #include "oriel/result.h"
 

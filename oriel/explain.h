@@ -4,8 +4,8 @@
 #include "interpret/explain/feature_relations.h"  // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/ids.h"
-#include "kernel/model/building.h"
-#include "kernel/model/description/feature_names.h"  // IWYU pragma: export
+#include "model/building.h"
+#include "model/description/feature_names.h"  // IWYU pragma: export
 #include "oriel/result.h"
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace oriel {
 /// in interpret/explain/explain.h write an Explanation.
 
 /// By feature: a name that a person would use, "window 3 of facade south, storey 2"
-/// (kernel/model/description/feature_names.h). Labels are those of `result`.
+/// (model/description/feature_names.h). Labels are those of `result`.
 std::vector<std::string> names_of_features(const PipelineResult& result);
 
 /// The feature with the id `text`, else those whose id begins with it; if there is none, that with

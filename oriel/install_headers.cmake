@@ -1,7 +1,7 @@
-# Installs the headers of oriel/, the front door, and all that they include: what no public header needs stays private.
+# Installs the headers of oriel/, the front door, those of experiments, and all that they include: what no public header needs stays private.
 # SOURCE is the source folder, TO the folder that is to hold them.
 cmake_policy(VERSION 3.22)
-file(GLOB waiting RELATIVE ${SOURCE} ${SOURCE}/oriel/*.h)
+file(GLOB waiting RELATIVE ${SOURCE} ${SOURCE}/oriel/*.h ${SOURCE}/experiments/experiment.h ${SOURCE}/experiments/perturb.h)
 set(headers ${waiting})
 while(waiting)
   list(POP_FRONT waiting header)

@@ -4,11 +4,11 @@
 #include "interpret/labelling/selection.h"  // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "interpret/score/label_diff.h"
+#include "io/records/feature_records.h"
+#include "io/records/feature_tables.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/records/feature_records.h"
-#include "kernel/io/records/feature_tables.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/interpretation.h"
+#include "model/description/feature_graph.h"
+#include "model/interpretation.h"
 
 #include <cstddef>
 #include <optional>

@@ -3,8 +3,8 @@
 #include "interpret/labelling/corrections.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/surfaces/untyped.h"  // IWYU pragma: export
-#include "kernel/model/building.h"
-#include "kernel/model/labelled_building.h"
+#include "model/building.h"
+#include "model/labelled_building.h"
 #include "oriel/options.h"
 #include "oriel/result.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernel/model/repair.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/segment/segment.h"
+#include "model/repair.h"
+#include "model/segmentation.h"
+#include "model/tolerances.h"
 #include "oriel/stage.h"
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace oriel {
 
 /// How a building becomes a solid and features. The defaults are those of the command.
 struct PipelineOptions {
-  /// See kernel/model/tolerances.h for each number and its reason.
+  /// See model/tolerances.h for each number and its reason.
   Tolerances tolerances;
   /// tolerances.plane_offset_m grows where the corners of a building lie further off their planes
   /// (fitted_to_noise), up to a centimetre; a note E126 says so. False: it holds as it is.

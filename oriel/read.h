@@ -1,8 +1,8 @@
 #pragma once
 
+#include "io/document.h"
+#include "io/reader.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/document.h"
-#include "kernel/io/reader.h"
 
 #include <string>
 #include <vector>

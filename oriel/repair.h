@@ -1,8 +1,8 @@
 #pragma once
 
+#include "io/document.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/document.h"
-#include "kernel/model/labelled_building.h"
+#include "model/labelled_building.h"
 #include "oriel/options.h"
 #include "oriel/result.h"
 

@@ -3,15 +3,15 @@
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/issue.h"
 #include "kernel/describe/describe.h"
-#include "kernel/model/description/surface_table.h"
-#include "kernel/model/interpretation.h"
-#include "kernel/model/labelled_building.h"
-#include "kernel/model/polygon_owners.h"
-#include "kernel/model/repair.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/neighbours/neighbours.h"
+#include "model/description/surface_table.h"
+#include "model/interpretation.h"
+#include "model/labelled_building.h"
+#include "model/polygon_owners.h"
+#include "model/repair.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <optional>
 #include <string>

@@ -7,9 +7,9 @@
 #include "interpret/score/score.h"
 #include "interpret/score/score_spread.h"
 #include "interpret/score/surface_score.h"
-#include "kernel/io/records/feature_records.h"
-#include "kernel/io/records/truth.h"
-#include "kernel/model/building.h"
+#include "io/records/feature_records.h"
+#include "io/records/truth.h"
+#include "model/building.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
 

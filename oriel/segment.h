@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/building.h"
-#include "kernel/model/cell_complex.h"
 #include "kernel/segment/tree/balance.h"
+#include "model/building.h"
+#include "model/cell_complex.h"
 #include "oriel/options.h"
 #include "oriel/result.h"
 

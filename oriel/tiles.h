@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/io/document.h"
-#include "kernel/io/tiles/tile_building.h"
-#include "kernel/io/tiles/tileset_writer.h"
+#include "io/document.h"
+#include "io/tiles/tile_building.h"
+#include "io/tiles/tileset_writer.h"
 #include "oriel/series.h"
 
 #include <string>

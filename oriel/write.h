@@ -1,12 +1,12 @@
 #pragma once
 
-#include "kernel/io/document.h"
-#include "kernel/io/files/format.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/mesh/mesh_writer.h"
-#include "kernel/io/records/feature_records.h"
-#include "kernel/io/writer.h"
-#include "kernel/model/labelled_building.h"
+#include "io/document.h"
+#include "io/files/format.h"
+#include "io/files/output_file.h"
+#include "io/mesh/mesh_writer.h"
+#include "io/records/feature_records.h"
+#include "io/writer.h"
+#include "model/labelled_building.h"
 #include "oriel/result.h"
 
 #include <cstdint>
@@ -36,7 +36,7 @@ void add(LabelledBuilding building, OutputRecord& output);
 
 /// A record as CityJSON with its labels: the text of a file, or of a CityJSONSeq one line with its
 /// line end. What the labels do not concern stays byte for byte; write_cityjson() in
-/// kernel/io/writer.h says what becomes of the rest.
+/// io/writer.h says what becomes of the rest.
 std::string write(const Document& document, const OutputRecord& output);
 
 /// One record for each feature of a building, for FeatureRecordWriter (docs/formats.md): none if it

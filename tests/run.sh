@@ -12,7 +12,7 @@ if [ ${#browser[@]} -gt 0 ]; then
 fi
 
 echo "== format"
-find bench cli examples generalise interpret kernel oriel python studio tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+find bench cli examples experiments generalise interpret io kernel model oriel python studio tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 -n 200 -P "$(nproc)" clang-format --dry-run -Werror
 
 echo "== build"

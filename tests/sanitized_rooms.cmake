@@ -4,7 +4,7 @@
 # sanitizer sees most of what they would; and the use of variables of a block that was left, which costs another quarter. The
 # preset has all of these. Of rules, what reads packs and applies them is compiled so, and not what compares, explains and learns.
 set(ORIEL_SANITIZED_ROOMS io solidify segment interpret)
-set(ORIEL_NOT_SANITIZED "(^|/)(experiment|explain|score|plan)/")
+set(ORIEL_NOT_SANITIZED "(^|/)(learn|explain|score|plan)/")
 set(ORIEL_SANITIZERS
   -fsanitize=address,signed-integer-overflow,float-cast-overflow,shift,integer-divide-by-zero,bounds,enum,bool,return,unreachable
   -fno-sanitize-recover=all -fno-omit-frame-pointer -fno-sanitize-address-use-after-scope)
@@ -50,11 +50,12 @@ endfunction()
 # oriel_of_threads: the command under the thread sanitizer, as far as it has what threads share: the commands that tests/tsan.sh
 # runs, the library, names and logs (base), and the tables of attributes and relations, which the first thread that asks for them
 # makes (model). The other rooms keep nothing between two calls, and what their threads share does not change (tests/repository).
-# Left out, for time, are the other commands (threads/other_commands.cpp) and what only they call.
+# Left out, for time, are the other commands and what only they call.
+set(ORIEL_COMMANDS_WITHOUT_THREADS cat collect completion diff experiment explain learn merge rules score split studio tiles validate view)
+list(JOIN ORIEL_COMMANDS_WITHOUT_THREADS "|" commands)
 set(ORIEL_NOT_OF_THREADS
-  "/cli/(view|completion|commands/rules)/" view_embedded tiles_page
-  "commands/(cat|collect|completion|diff|experiment|explain|learn|merge|score|split|tiles|validate|view)_"
-  "/oriel/./(experiments/[a-z_]+[.]cpp|report/)")
+  "/cli/(view|completion|commands/rules)/" left_out tiles_page "commands/(${commands})_"
+  "/oriel/./calls/(learn|stored_samples)[.]cpp")
 function(oriel_leave_out_of_threads list)
   foreach(pattern ${ORIEL_NOT_OF_THREADS})
     list(FILTER ${list} EXCLUDE REGEX "${pattern}")
@@ -78,7 +79,8 @@ function(oriel_command_of_threads)
   oriel_leave_out_of_threads(sources)
   get_target_property(libraries oriel LINK_LIBRARIES)
   list(FILTER libraries EXCLUDE REGEX "mimalloc|Wl,|stdc")
-  add_executable(oriel_of_threads ${all_objects} ${sources} threads/other_commands.cpp)
+  oriel_leave_out(${CMAKE_CURRENT_BINARY_DIR}/other_commands.cpp ${ORIEL_COMMANDS_WITHOUT_THREADS})
+  add_executable(oriel_of_threads ${all_objects} ${sources} ${CMAKE_CURRENT_BINARY_DIR}/other_commands.cpp)
   target_link_libraries(oriel_of_threads PRIVATE ${libraries})
   target_link_options(oriel_of_threads PRIVATE -fsanitize=thread)
   get_target_property(definitions oriel COMPILE_DEFINITIONS)

@@ -2,7 +2,7 @@
 
 #include "cli/batch/outcome.h"
 #include "cli/output/named_files.h"
-#include "kernel/io/document.h"
+#include "io/document.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,14 +4,14 @@
 #include "cli/batch/isolation.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/table.h"
+#include "io/files/output_file.h"
+#include "io/files/partial_files.h"
+#include "io/records/feature_records.h"
 #include "kernel/base/log.h"
 #include "kernel/base/own_fault.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/files/partial_files.h"
-#include "kernel/io/records/feature_records.h"
 
 #include <algorithm>
 #include <oneapi/tbb/parallel_pipeline.h>

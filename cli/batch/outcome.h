@@ -2,7 +2,7 @@
 
 #include "cli/batch/inputs/input_reader.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/labelled_building.h"
+#include "model/labelled_building.h"
 #include "oriel/result.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cli/batch/outcome.h"
+#include "io/files/output_file.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/files/output_file.h"
 
 #include <cstdint>
 #include <map>

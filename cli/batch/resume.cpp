@@ -1,10 +1,10 @@
 #include "cli/batch/resume.h"
 
 #include "cli/batch/status.h"
+#include "io/files/file_lock.h"
+#include "io/files/output_file.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"
-#include "kernel/io/files/file_lock.h"
-#include "kernel/io/files/output_file.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -2,7 +2,7 @@
 
 #include "cli/batch/run_options.h"
 #include "cli/terminal/exit_code.h"
-#include "kernel/io/files/partial_files.h"
+#include "io/files/partial_files.h"
 
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
 #include "cli/batch/run_options.h"
 
-#include "interpret/language/suggest.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <limits>
@@ -39,7 +39,7 @@ bool is_in(const std::vector<double>& bbox, const Building& building) {
 std::string meant_id(const std::string& id, const std::vector<std::string>& seen) {
   constexpr std::size_t kShown = 3;
   if (seen.empty()) return {};
-  if (const std::string near = rules::nearest(id, seen); !near.empty())
+  if (const std::string near = nearest(id, seen); !near.empty())
     return fmt::format("; did you mean '{}'?", near);
   const std::vector<std::string> first(
       seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, seen.size())));

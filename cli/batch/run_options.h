@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
-#include "kernel/model/building.h"
+#include "model/building.h"
 #include "oriel/label.h"
 #include "oriel/neighbours.h"
 #include "oriel/read.h"

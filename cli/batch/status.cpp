@@ -1,9 +1,9 @@
 #include "cli/batch/status.h"
 
 #include "cli/batch/resume.h"
+#include "io/json/json_check.h"
 #include "kernel/base/sha256.h"
-#include "kernel/io/json/json_check.h"
-#include "kernel/model/version.h"
+#include "model/version.h"
 
 #include <algorithm>
 #include <sys/resource.h>

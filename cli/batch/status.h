@@ -2,9 +2,9 @@
 
 #include "cli/batch/inputs/input_reader.h"
 #include "cli/terminal/exit_code.h"
+#include "io/files/output_file.h"
+#include "io/files/partial_files.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/files/partial_files.h"
 
 #include <map>
 #include <set>

@@ -3,7 +3,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/stream_lines.h"
-#include "kernel/io/files/output_file.h"
+#include "io/files/output_file.h"
 
 #include <memory>
 

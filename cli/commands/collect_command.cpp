@@ -3,8 +3,8 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/stream_lines.h"
-#include "kernel/io/cityjson/cityjson_collector.h"
-#include "kernel/io/files/output_file.h"
+#include "io/cityjson/cityjson_collector.h"
+#include "io/files/output_file.h"
 
 #include <memory>
 

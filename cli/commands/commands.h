@@ -36,5 +36,7 @@ void add_merge(CLI::App& app, Action& action);
 void add_rules(CLI::App& app, Action& action);
 void add_experiment(CLI::App& app, Action& action);
 void add_completion(CLI::App& app, Action& action);
+/// `rules lsp`: what editors ask while a pack is written.
+void add_rules_lsp(CLI::App& rules, Action& action);
 
 }  // namespace oriel::cli

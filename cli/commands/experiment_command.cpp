@@ -8,11 +8,11 @@
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/step_progress.h"
 #include "cli/version/version_text.h"
+#include "experiments/experiment.h"
+#include "io/files/output_file.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/files/output_file.h"
-#include "oriel/experiments/experiment.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -7,12 +7,12 @@
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/step_progress.h"
-#include "interpret/language/suggest.h"
+#include "io/files/output_file.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/files/output_file.h"
+#include "kernel/base/text/suggest.h"
 #include "oriel/corrections.h"
-#include "oriel/experiments/learn.h"
+#include "oriel/learn.h"
 #include "oriel/rules.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ std::optional<Objective> objective_of(const LearnArguments& arguments, const Rul
     if (std::ranges::find(labels, word) != labels.end()) return Objective::f1_of(word);
     std::vector<std::string> known = labels;
     known.insert(known.end(), {kMacroF1, kCost});
-    const std::string meant = rules::nearest(word, known);
+    const std::string meant = nearest(word, known);
     throw CLI::ValidationError(
         "--objective",
         fmt::format("'{}' is none of {}, {} and the classes of the pack ({}){}", printable(word),

@@ -4,12 +4,12 @@
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"
+#include "io/cityjson/id_set.h"
+#include "io/cityjson/stream_header.h"
+#include "io/files/output_file.h"
+#include "io/files/partial_files.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/text/counted.h"
-#include "kernel/io/cityjson/id_set.h"
-#include "kernel/io/cityjson/stream_header.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/files/partial_files.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -4,8 +4,8 @@
 #include "cli/output/column_choice.h"
 #include "cli/output/label_outputs.h"
 #include "cli/terminal/option_values.h"
+#include "io/records/feature_records.h"
 #include "kernel/base/text/counted.h"
-#include "kernel/io/records/feature_records.h"
 #include "oriel/corrections.h"
 #include "oriel/score.h"
 

@@ -4,7 +4,7 @@
 #include "cli/batch/run_options.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/logging.h"
-#include "kernel/io/files/format.h"
+#include "io/files/format.h"
 #include "oriel/rules.h"
 
 #include <memory>

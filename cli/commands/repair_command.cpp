@@ -5,10 +5,10 @@
 #include "cli/output/output_sink.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
+#include "io/files/output_file.h"
+#include "io/records/stage_json.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/records/stage_json.h"
 #include "oriel/repair.h"
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
+#include "io/files/output_file.h"
+#include "io/records/feature_records.h"
 #include "kernel/base/text/counted.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/records/feature_records.h"
 #include "oriel/corrections.h"
 #include "oriel/score.h"
 

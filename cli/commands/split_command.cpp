@@ -5,9 +5,9 @@
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/option_values.h"
+#include "io/cityjson/stream_header.h"
+#include "io/files/output_file.h"
 #include "kernel/base/text/counted.h"
-#include "kernel/io/cityjson/stream_header.h"
-#include "kernel/io/files/output_file.h"
 
 #include <cmath>
 #include <deque>

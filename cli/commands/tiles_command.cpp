@@ -9,10 +9,10 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/tiles/tiles_page.h"
+#include "io/files/output_file.h"
+#include "io/files/partial_files.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/files/partial_files.h"
 #include "oriel/rules.h"
 #include "oriel/tiles.h"
 

@@ -6,10 +6,10 @@
 #include "cli/terminal/file_advice.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
+#include "io/cityjson/cityjson_source.h"
+#include "io/files/output_file.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/cityjson/cityjson_source.h"
-#include "kernel/io/files/output_file.h"
 #include "oriel/read.h"
 #include "oriel/validate.h"
 

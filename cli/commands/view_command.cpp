@@ -5,8 +5,8 @@
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
 #include "cli/view/page.h"
-#include "kernel/io/cityjson/carried_labels.h"
-#include "kernel/io/files/output_file.h"
+#include "io/cityjson/carried_labels.h"
+#include "io/files/output_file.h"
 
 #include <filesystem>
 #include <map>

@@ -2,7 +2,7 @@
 
 #include "cli/batch/outcome.h"
 #include "cli/output/named_files.h"
-#include "kernel/io/files/output_file.h"
+#include "io/files/output_file.h"
 #include "oriel/generalise.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 #include "cli/output/column_choice.h"
 
-#include "interpret/language/suggest.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <iterator>
@@ -46,7 +46,7 @@ std::string wrong_column(const std::string& word) {
   for (const auto& [group, names] : column_groups()) words.push_back(group);
   words.emplace_back("rules");
   if (std::ranges::find(words, word) != words.end()) return {};
-  const std::string meant = rules::nearest(word, words);
+  const std::string meant = nearest(word, words);
   return fmt::format(
       "'{}' is no column of records and none of the groups all, attributes, ids, "
       "labels, relations, rules{}",

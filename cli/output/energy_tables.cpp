@@ -2,8 +2,8 @@
 
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/option_values.h"
+#include "io/records/feature_records.h"
 #include "kernel/base/text/counted.h"
-#include "kernel/io/records/feature_records.h"
 
 #include <algorithm>
 #include <filesystem>

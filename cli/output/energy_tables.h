@@ -2,8 +2,8 @@
 
 #include "cli/batch/outcome.h"
 #include "cli/output/named_files.h"
+#include "io/files/output_file.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/files/output_file.h"
 #include "oriel/energy.h"
 
 #include <array>

@@ -3,7 +3,7 @@
 #include "cli/batch/inputs/neighbours.h"
 #include "cli/batch/run_options.h"
 #include "cli/commands/options.h"
-#include "kernel/io/files/partial_files.h"
+#include "io/files/partial_files.h"
 
 #include <optional>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/experiments/paper/count.h"
+#include "oriel/paper_count.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "cli/output/sarif.h"
 
-#include "kernel/model/version.h"
+#include "model/version.h"
 #include "oriel/rules.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "cli/streams/shards.h"
 
 #include "cli/batch/resume.h"
-#include "kernel/io/cityjson/stream_header.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/json/json_check.h"
+#include "io/cityjson/stream_header.h"
+#include "io/files/output_file.h"
+#include "io/json/json_check.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #include "cli/streams/stream_lines.h"
 
-#include "kernel/io/cityjson/cityjson_splitter.h"
-#include "kernel/io/cityjson/stream_header.h"
+#include "io/cityjson/cityjson_splitter.h"
+#include "io/cityjson/stream_header.h"
 #include "oriel/write.h"
 
 #include <algorithm>

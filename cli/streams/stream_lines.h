@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cli/batch/run_options.h"
+#include "io/document.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/document.h"
 #include "oriel/result.h"
 
 #include <cstddef>

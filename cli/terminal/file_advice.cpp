@@ -1,7 +1,7 @@
 #include "cli/terminal/file_advice.h"
 
-#include "interpret/language/suggest.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -74,7 +74,7 @@ std::string advice_on_missing(const std::string& path) {
   const std::string folder = missing_folder(path);
   if (!folder.empty()) return folder;
   const std::string name = fs::path(path).filename().string();
-  const std::string near = rules::nearest(name, names_in(folder_of(path)));
+  const std::string near = nearest(name, names_in(folder_of(path)));
   return near.empty() ? "expected an existing file or folder"
                       : fmt::format("did you mean '{}'?", printable(near));
 }

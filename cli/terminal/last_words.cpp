@@ -2,8 +2,8 @@
 
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/logging.h"
+#include "io/files/output_file.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/files/output_file.h"
 
 #include <atomic>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 #include "cli/terminal/option_values.h"
 
-#include "interpret/language/suggest.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <utility>
@@ -37,7 +37,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
   CLI::Validator validator = CLI::IsMember(words);
   validator.operation([words = std::move(words)](std::string& text) {
     if (std::ranges::find(words, text) != words.end()) return std::string();
-    const std::string meant = rules::nearest(text, words);
+    const std::string meant = nearest(text, words);
     return fmt::format("'{}' is not one of {}{}", printable(text), fmt::join(words, ", "),
                        meant.empty() ? "" : fmt::format("; did you mean '{}'?", meant));
   });

@@ -1,7 +1,7 @@
 #include "cli/terminal/usage_advice.h"
 
-#include "interpret/language/suggest.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <string_view>
@@ -114,10 +114,10 @@ std::string meant(std::string_view word, const std::vector<std::string>& names,
   for (const UsageSynonym& synonym : synonyms) {
     const std::string_view first = synonym.ours.substr(0, synonym.ours.find(' '));
     const bool is_option_of_all = first == "--help" || first == "--version";
-    if (synonym.theirs == word && (is_option_of_all || rules::contains(names, first)))
+    if (synonym.theirs == word && (is_option_of_all || contains(names, first)))
       return std::string(synonym.ours);
   }
-  return rules::nearest(word, names);
+  return nearest(word, names);
 }
 
 std::string did_you_mean(const std::string& meant) {

@@ -1,12 +1,12 @@
 #include "cli/view/page.h"
 
-#include "kernel/model/polygon_owners.h"
-#include "kernel/model/version.h"
+#include "model/polygon_owners.h"
+#include "model/version.h"
 #include "oriel/explain.h"
+#include "oriel/plain_sentence.h"
 #include "oriel/rules.h"
+#include "oriel/storeys.h"
 #include "studio/server/page_files.h"
-#include "studio/session/plain_sentence.h"
-#include "studio/session/storeys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -164,11 +164,11 @@ ordered_json PageData::State::feature(const PipelineResult& line, const Explanat
   const Feature& what = line.segmentation->features[feature.index()];
   return {{"id", explanation.feature},
           {"name", explanation.name},
-          {"kind", studio::kind_word(what.sense)},
+          {"kind", kind_word(what.sense)},
           {"parent", what.parent.value},
           {"label", verdict.label},
           {"rule", verdict.rule},
-          {"sentence", studio::plain_sentence(line, line.interpretation, feature)},
+          {"sentence", plain_sentence(line, line.interpretation, feature)},
           {"head", headline(explanation)},
           {"rules", std::move(rules_of_it)},
           {"relations", relations_of(relations, feature)}};
@@ -187,7 +187,7 @@ ordered_json PageData::State::features(const PipelineResult& line) {
 ordered_json PageData::State::storeys(const Building& building, const PipelineResult& line) {
   ordered_json list = ordered_json::array();
   if (!origin_m) origin_m = building.frame.origin_m;
-  for (const double floor_m : studio::storey_floors(building, line))
+  for (const double floor_m : storey_floors(building, line))
     list.push_back(
         std::llround(kMillimetres * (floor_m + building.frame.origin_m.z - origin_m->z)));
   return list;

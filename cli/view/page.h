@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/io/cityjson/carried_labels.h"
-#include "kernel/model/building.h"
+#include "io/cityjson/carried_labels.h"
+#include "model/building.h"
 #include "oriel/result.h"
 #include "oriel/rules.h"
 

@@ -1,8 +1,8 @@
 /// Draws how a building is cut: `oriel-cuts INPUT OUT.svg [natural|paper]`, the first building of
 /// INPUT. The picture of docs/segmentation.md is made by it.
 #include "examples/cuts/svg.h"
-#include "kernel/io/files/output_file.h"
-#include "kernel/io/reader.h"
+#include "io/files/output_file.h"
+#include "io/reader.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 

@@ -6,9 +6,9 @@
 #include "kernel/blocks/upright_block.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/neighbours/detached_rows.h"
 #include "kernel/validate/validate.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

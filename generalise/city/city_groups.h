@@ -1,14 +1,14 @@
 #pragma once
 
 #include "generalise/generalise.h"
-#include "interpret/experiment/parallel.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/building.h"
-#include "kernel/model/solid.h"
+#include "kernel/base/parallel.h"
 #include "kernel/neighbours/alike_groups.h"
 #include "kernel/neighbours/kept_ground.h"
 #include "kernel/neighbours/neighbours.h"
+#include "model/building.h"
+#include "model/solid.h"
 
 #include <cstddef>
 #include <map>

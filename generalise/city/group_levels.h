@@ -3,9 +3,9 @@
 #include "generalise/city/city_groups.h"
 #include "generalise/series/level_state.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/building.h"
-#include "kernel/model/scale_series.h"
 #include "kernel/neighbours/neighbours.h"
+#include "model/building.h"
+#include "model/scale_series.h"
 
 #include <cstddef>
 #include <span>

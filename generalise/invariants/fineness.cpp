@@ -5,7 +5,7 @@
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/tolerances.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 #include "generalise/generalise.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/building.h"
-#include "kernel/model/description/feature_table.h"
+#include "model/building.h"
+#include "model/description/feature_table.h"
 
 #include <optional>
 #include <string>

@@ -6,8 +6,8 @@
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/shared_area.h"
-#include "kernel/model/tolerances.h"
-#include "kernel/model/vec3.h"
+#include "model/tolerances.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

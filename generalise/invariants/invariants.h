@@ -4,10 +4,10 @@
 #include "kernel/base/code.h"
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/model/cell_complex.h"
-#include "kernel/model/plan.h"
-#include "kernel/model/solid.h"
+#include "model/building.h"
+#include "model/cell_complex.h"
+#include "model/plan.h"
+#include "model/solid.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/labelled_building.h"
-#include "kernel/model/vec3.h"
+#include "model/building.h"
+#include "model/labelled_building.h"
+#include "model/vec3.h"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "generalise/metrics/facade_quality.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
+#include "model/description/feature_table.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <optional>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "generalise/operators/host.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <vector>
 

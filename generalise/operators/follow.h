@@ -1,9 +1,9 @@
 #pragma once
 
 #include "generalise/operators/host.h"
-#include "kernel/model/plan.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
+#include "model/plan.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <map>
 #include <string>

@@ -3,8 +3,8 @@
 #include "generalise/needs.h"
 #include "kernel/attach/attach.h"
 #include "kernel/attach/raise_across.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,10 +2,10 @@
 
 #include "generalise/invariants/invariants.h"
 #include "generalise/operators/host.h"
-#include "kernel/model/plan.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
 #include "kernel/segment/remove.h"
+#include "model/plan.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <cstddef>
 #include <optional>

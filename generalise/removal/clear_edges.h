@@ -3,7 +3,7 @@
 #include "generalise/carry_out.h"
 #include "generalise/invariants/fineness.h"
 #include "generalise/invariants/invariants.h"
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 
 #include <functional>
 #include <optional>

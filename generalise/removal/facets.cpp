@@ -3,7 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/disjoint_sets.h"
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <map>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "generalise/invariants/invariants.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
 #include "kernel/segment/remove.h"
 #include "kernel/segment/segment.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 namespace oriel {
 

@@ -5,11 +5,11 @@
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/model/cell_complex.h"
 #include "kernel/segment/complex/body_without.h"
 #include "kernel/segment/complex/cell_complex.h"
 #include "kernel/solidify/solidify.h"
+#include "model/building.h"
+#include "model/cell_complex.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/model/cell_complex.h"
 #include "kernel/segment/complex/body_without.h"
+#include "model/cell_complex.h"
 
 #include <algorithm>
 #include <array>

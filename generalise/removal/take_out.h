@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <optional>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/scale_series.h"
+#include "model/scale_series.h"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/base/issue.h"
-#include "kernel/model/building.h"
-#include "kernel/model/labelled_building.h"
-#include "kernel/model/scale_series.h"
+#include "model/building.h"
+#include "model/labelled_building.h"
+#include "model/scale_series.h"
 
 #include <functional>
 #include <string>

@@ -6,8 +6,8 @@
 #include "generalise/tasks.h"
 #include "kernel/base/issue.h"
 #include "kernel/geometry/boxes.h"
-#include "kernel/model/plan.h"
-#include "kernel/model/segmentation.h"
+#include "model/plan.h"
+#include "model/segmentation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "generalise/series/level_state.h"
 #include "generalise/series/series_levels.h"
-#include "kernel/model/scale_series.h"
+#include "model/scale_series.h"
 
 #include <map>
 #include <vector>

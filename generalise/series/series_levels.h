@@ -1,7 +1,7 @@
 #pragma once
 
 #include "generalise/generalise.h"
-#include "kernel/model/plan.h"
+#include "model/plan.h"
 
 #include <functional>
 #include <optional>

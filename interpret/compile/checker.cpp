@@ -2,8 +2,8 @@
 
 #include "interpret/language/parser.h"
 #include "interpret/language/quantity.h"
-#include "interpret/language/suggest.h"
-#include "kernel/model/description/surface_table.h"
+#include "kernel/base/text/suggest.h"
+#include "model/description/surface_table.h"
 
 #include <algorithm>
 #include <cmath>

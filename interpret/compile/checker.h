@@ -6,7 +6,7 @@
 #include "interpret/language/parser.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
-#include "kernel/model/description/feature_table.h"
+#include "model/description/feature_table.h"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #include "interpret/compile/name_lookup.h"
 
-#include "interpret/language/suggest.h"
 #include "interpret/language/synonyms.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,9 +2,9 @@
 
 #include "interpret/language/expr.h"
 #include "interpret/pack/pack.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/description/surface_table.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
+#include "model/description/surface_table.h"
 
 #include <algorithm>
 #include <span>

@@ -3,8 +3,8 @@
 #include "interpret/explain/proof.h"
 #include "interpret/explain/what_if.h"
 #include "interpret/labelling/labelling.h"
-#include "interpret/language/suggest.h"
 #include "interpret/pack/names.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <map>
@@ -240,7 +240,7 @@ std::string similar_rule(const RuleBase& base, std::string_view name) {
     names.push_back(rule.id);
     names.push_back(pack.classes[static_cast<std::size_t>(rule.label)].name);
   }
-  return rules::did_you_mean(name, names);
+  return did_you_mean(name, names);
 }
 
 Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,

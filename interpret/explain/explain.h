@@ -2,9 +2,9 @@
 
 #include "interpret/explain/feature_relations.h"
 #include "interpret/pack/rule_base.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/interpretation.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
+#include "model/interpretation.h"
 
 #include <array>
 #include <cstddef>

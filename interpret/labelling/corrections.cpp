@@ -1,8 +1,8 @@
 #include "interpret/labelling/corrections.h"
 
-#include "interpret/language/suggest.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/suggest.h"
 #include "kernel/geometry/boxes.h"
 
 #include <algorithm>
@@ -100,14 +100,14 @@ std::vector<Issue> drop_unknown_classes(std::vector<Correction>& corrections,
                                         const std::vector<std::string>& labels) {
   std::vector<Issue> issues;
   const auto is_unknown = [&](const Correction& correction) {
-    return !correction.label.empty() && !rules::contains(labels, correction.label);
+    return !correction.label.empty() && !contains(labels, correction.label);
   };
   for (const Correction& correction : corrections)
     if (is_unknown(correction))
       issues.push_back(correction_warning(
           Code::E153, correction,
           fmt::format("the pack has no class '{}'{}", printable(correction.label),
-                      rules::did_you_mean(correction.label, labels))));
+                      did_you_mean(correction.label, labels))));
   std::erase_if(corrections, is_unknown);
   return issues;
 }
@@ -147,7 +147,7 @@ std::vector<Issue> Corrections::unknown_buildings(const std::set<std::string>& s
       issues.push_back(
           correction_warning(Code::E153, corrections.front(),
                              fmt::format("there is no building '{}'{}", printable(building),
-                                         rules::did_you_mean(building, names))));
+                                         did_you_mean(building, names))));
   return issues;
 }
 

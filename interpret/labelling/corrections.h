@@ -2,9 +2,9 @@
 
 #include "interpret/score/score.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/correction.h"
-#include "kernel/model/interpretation.h"
-#include "kernel/model/vec3.h"
+#include "model/correction.h"
+#include "model/interpretation.h"
+#include "model/vec3.h"
 
 #include <cstddef>
 #include <map>

@@ -2,9 +2,9 @@
 
 #include "interpret/evaluate/evaluation_context.h"
 #include "interpret/pack/pack.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/interpretation.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
+#include "model/interpretation.h"
 
 #include <string_view>
 #include <vector>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/interpretation.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
+#include "model/interpretation.h"
 
 namespace oriel {
 

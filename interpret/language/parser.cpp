@@ -3,8 +3,8 @@
 #include "interpret/language/findings.h"
 #include "interpret/language/lexer.h"
 #include "interpret/language/quantity.h"
-#include "interpret/language/suggest.h"
 #include "interpret/language/synonyms.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <exception>

@@ -1,6 +1,6 @@
 #include "interpret/language/synonyms.h"
 
-#include "interpret/language/suggest.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "interpret/pack/extend.h"
 
-#include "interpret/language/suggest.h"
 #include "interpret/pack/embedded.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <set>

@@ -5,7 +5,7 @@
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/yaml/yaml_tree.h"
-#include "kernel/model/plan.h"
+#include "model/plan.h"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #include "interpret/language/expr.h"
 #include "interpret/language/source.h"
 #include "kernel/base/name.h"
-#include "kernel/model/plan.h"
+#include "model/plan.h"
 
 #include <algorithm>
 #include <array>

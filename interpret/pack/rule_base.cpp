@@ -7,7 +7,6 @@
 #include "interpret/compile/strata.h"
 #include "interpret/evaluate/relations.h"
 #include "interpret/language/findings.h"
-#include "interpret/language/suggest.h"
 #include "interpret/pack/embedded.h"
 #include "interpret/pack/extend.h"
 #include "interpret/pack/loader.h"
@@ -18,6 +17,7 @@
 #include "interpret/yaml/yaml_text.h"
 #include "interpret/yaml/yaml_tree.h"
 #include "kernel/base/sha256.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -160,7 +160,7 @@ bool is_other_file(const YamlNode& root) {
   constexpr std::size_t kFewKeys = 2;  // all of them may be misspelt
   return root.kind == YamlNode::Kind::map && root.entries.size() > kFewKeys &&
          std::ranges::none_of(root.entries, [](const YamlEntry& entry) {
-           return rules::contains(top_keys(), entry.key.text);
+           return contains(top_keys(), entry.key.text);
          });
 }
 
@@ -307,9 +307,9 @@ Checked<RuleBase> load(std::string text, std::string file, const rules::PackFind
 std::string suggest_embedded(const std::string& path) {
   const auto names = embedded_packs();
   const std::string stem = std::filesystem::path(path).stem().string();
-  if (rules::contains(names, stem)) return "; did you mean '" + stem + "', which is built in?";
-  const std::string near = rules::did_you_mean(stem, names);
-  return near.empty() ? "; the packs built in are: " + rules::join(names) : near;
+  if (contains(names, stem)) return "; did you mean '" + stem + "', which is built in?";
+  const std::string near = did_you_mean(stem, names);
+  return near.empty() ? "; the packs built in are: " + join(names) : near;
 }
 
 /// `found` is what find_pack has at `path`.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
-#include "kernel/model/plan.h"
+#include "model/plan.h"
 
 #include <memory>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "interpret/pack/vocabulary.h"
 
-#include "interpret/language/suggest.h"
 #include "interpret/language/synonyms.h"
 #include "interpret/plan/operators.h"
-#include "kernel/model/description/attributes.h"
+#include "kernel/base/text/suggest.h"
+#include "model/description/attributes.h"
 
 #include <algorithm>
 
@@ -64,7 +64,7 @@ std::string example_of(const OperatorKind& kind) {
 
 std::string argument_in_words(const OperatorArgument& argument) {
   const std::string kind =
-      argument.kind == "word" ? "one of " + rules::join(argument.words) : "a " + argument.kind;
+      argument.kind == "word" ? "one of " + join(argument.words) : "a " + argument.kind;
   return fmt::format("{}: {} ({})", argument.name, argument.meaning, kind);
 }
 
@@ -130,7 +130,7 @@ std::optional<VocabularyWord> find_word(const std::vector<VocabularyWord>& words
   if (found == words.end()) found = named(normal);
   if (found == words.end())
     found = std::ranges::find_if(
-        words, [&](const VocabularyWord& word) { return rules::contains(word.synonyms, normal); });
+        words, [&](const VocabularyWord& word) { return contains(word.synonyms, normal); });
   return found == words.end() ? std::nullopt : std::optional(*found);
 }
 

@@ -5,12 +5,12 @@
 #include "interpret/language/findings.h"
 #include "interpret/language/parser.h"
 #include "interpret/language/quantity.h"
-#include "interpret/language/suggest.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/params/settable_pack.h"
 #include "kernel/base/index.h"
 #include "kernel/base/sha256.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <charconv>
@@ -156,10 +156,9 @@ class AssignmentReader {
 
   [[nodiscard]] std::string unknown(const std::string& name) const {
     const auto names = rules::names_of(pack_.params);
-    std::string advice = rules::did_you_mean(name, names);
+    std::string advice = did_you_mean(name, names);
     if (advice.empty())
-      advice =
-          names.empty() ? "; the pack has no params" : "; the params are: " + rules::join(names);
+      advice = names.empty() ? "; the pack has no params" : "; the params are: " + join(names);
     return fmt::format("unknown param '{}'{}", name, advice);
   }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/interpretation.h"
-#include "kernel/model/plan.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
+#include "model/interpretation.h"
+#include "model/plan.h"
 
 #include <vector>
 

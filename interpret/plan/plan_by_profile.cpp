@@ -2,7 +2,7 @@
 #include "interpret/pack/pack.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/index.h"
-#include "kernel/model/tolerances.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

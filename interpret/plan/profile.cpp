@@ -1,11 +1,11 @@
 #include "interpret/plan/profile.h"
 
-#include "interpret/language/suggest.h"
 #include "interpret/pack/embedded.h"
 #include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/sha256.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <array>
@@ -60,7 +60,7 @@ class ProfileReader {
                       fmt::format("{}; the levels of '{}' are {}",
                                   level.empty() ? "a level is needed"
                                                 : fmt::format("there is no level '{}'", level),
-                                  base.name, rules::join(names)));
+                                  base.name, join(names)));
   }
 
  private:
@@ -222,7 +222,7 @@ class ProfileReader {
         profile_.sheets[place] = verdict;
       else
         findings_.error(Code::R211, own->span,
-                        fmt::format("write keep, {}, not '{}'", rules::join(words), verdict));
+                        fmt::format("write keep, {}, not '{}'", join(words), verdict));
     }
   }
 
@@ -292,10 +292,10 @@ Checked<Profile> load_profile_file(const std::string& name_and_level) {
   if (auto text = text_of_file(name)) return load_profile(std::move(*text), name, level);
   Issue issue;
   issue.code = Code::R200;
-  const std::string near = rules::did_you_mean(name, embedded_profiles());
+  const std::string near = did_you_mean(name, embedded_profiles());
   issue.sentence =
       "there is no profile here that can be read" +
-      (near.empty() ? "; the profiles built in are: " + rules::join(embedded_profiles()) : near);
+      (near.empty() ? "; the profiles built in are: " + join(embedded_profiles()) : near);
   issue.place.file = name;
   return {std::nullopt, {std::move(issue)}};
 }

@@ -3,10 +3,10 @@
 #include "interpret/pack/rule_base.h"
 #include "interpret/score/significance.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/interpretation.h"
-#include "kernel/model/plan.h"
-#include "kernel/model/segmentation.h"
+#include "model/description/feature_table.h"
+#include "model/interpretation.h"
+#include "model/plan.h"
+#include "model/segmentation.h"
 
 #include <map>
 #include <optional>

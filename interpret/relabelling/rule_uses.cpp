@@ -2,7 +2,7 @@
 
 #include "interpret/compile/counts.h"
 #include "kernel/base/index.h"
-#include "kernel/model/description/feature_table.h"
+#include "model/description/feature_table.h"
 
 #include <algorithm>
 

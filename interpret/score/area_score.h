@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/building.h"
+#include "model/building.h"
 
 #include <map>
 #include <string>

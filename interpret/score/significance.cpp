@@ -1,6 +1,6 @@
 #include "interpret/score/significance.h"
 
-#include "kernel/model/tolerances.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/description/feature_table.h"
+#include "model/description/feature_table.h"
 
 #include <optional>
 #include <string>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/description/surface_table.h"
-#include "kernel/model/labelled_building.h"
-#include "kernel/model/vec3.h"
+#include "model/building.h"
+#include "model/description/surface_table.h"
+#include "model/labelled_building.h"
+#include "model/vec3.h"
 
 #include <cstddef>
 #include <map>

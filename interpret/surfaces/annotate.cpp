@@ -7,8 +7,8 @@
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
-#include "kernel/model/description/feature_names.h"
-#include "kernel/model/version.h"
+#include "model/description/feature_names.h"
+#include "model/version.h"
 
 #include <algorithm>
 #include <cmath>

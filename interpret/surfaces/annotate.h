@@ -2,14 +2,14 @@
 
 #include "interpret/pack/rule_base.h"
 #include "interpret/surfaces/surfaces.h"
-#include "kernel/model/building.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/description/surface_table.h"
-#include "kernel/model/interpretation.h"
-#include "kernel/model/labelled_building.h"
-#include "kernel/model/polygon_owners.h"
-#include "kernel/model/segmentation.h"
+#include "model/building.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
+#include "model/description/surface_table.h"
+#include "model/interpretation.h"
+#include "model/labelled_building.h"
+#include "model/polygon_owners.h"
+#include "model/segmentation.h"
 
 #include <span>
 #include <string>

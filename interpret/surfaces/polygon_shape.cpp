@@ -1,7 +1,7 @@
 #include "interpret/surfaces/polygon_shape.h"
 
 #include "kernel/geometry/directions.h"
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 namespace oriel::rules {
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
-#include "kernel/model/building.h"
-#include "kernel/model/description/surface_table.h"
-#include "kernel/model/interpretation.h"
-#include "kernel/model/polygon_owners.h"
-#include "kernel/model/segmentation.h"
+#include "model/building.h"
+#include "model/description/surface_table.h"
+#include "model/interpretation.h"
+#include "model/polygon_owners.h"
+#include "model/segmentation.h"
 
 #include <cstddef>
 #include <span>

@@ -2,7 +2,7 @@
 
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/issue.h"
-#include "kernel/model/interpretation.h"
+#include "model/interpretation.h"
 
 #include <map>
 #include <string>

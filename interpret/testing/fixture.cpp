@@ -1,8 +1,8 @@
 #include "interpret/testing/fixture.h"
 
 #include "interpret/language/quantity.h"
-#include "interpret/language/suggest.h"
 #include "interpret/yaml/section.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
-#include "kernel/model/description/feature_graph.h"
+#include "model/description/feature_graph.h"
 
 #include <functional>
 #include <string>

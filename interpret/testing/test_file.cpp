@@ -1,8 +1,8 @@
 #include "interpret/testing/test_file.h"
 
-#include "interpret/language/suggest.h"
 #include "interpret/yaml/section.h"
 #include "interpret/yaml/yaml_tree.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -7,7 +7,7 @@
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/attach/attach.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/vec3.h"
+#include "model/solid.h"
+#include "model/vec3.h"
 
 #include <map>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 
 namespace oriel::detail {
 

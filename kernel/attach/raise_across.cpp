@@ -6,7 +6,7 @@
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/attach/attach.h"
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 
 #include <optional>
 #include <vector>

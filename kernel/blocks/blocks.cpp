@@ -6,8 +6,8 @@
 #include "kernel/blocks/upright_block.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
 #include "kernel/solidify/solidify.h"
+#include "model/building.h"
 
 #include <algorithm>
 #include <array>

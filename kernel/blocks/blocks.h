@@ -2,9 +2,9 @@
 
 #include "kernel/base/issue.h"
 #include "kernel/base/work.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
-#include "kernel/model/vec3.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
+#include "model/vec3.h"
 
 #include <functional>
 #include <string>

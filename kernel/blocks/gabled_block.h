@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/model/vec3.h"
+#include "model/building.h"
+#include "model/vec3.h"
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/geometry/planar.h"
-#include "kernel/model/solid.h"
 #include "kernel/segment/complex/arrangement.h"
 #include "kernel/segment/complex/vertex_pool.h"
+#include "model/solid.h"
 
 #include <cstddef>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/geometry/planar.h"
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <functional>
 #include <vector>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
+#include "model/building.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <optional>
 #include <vector>

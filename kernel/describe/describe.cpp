@@ -9,10 +9,10 @@
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/tolerances.h"
+#include "model/building.h"
+#include "model/description/feature_table.h"
+#include "model/segmentation.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/building.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/segmentation.h"
+#include "model/building.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
+#include "model/segmentation.h"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include "kernel/describe/surfaces/surface_faces.h"
 #include "kernel/describe/surfaces/vertical_lines.h"
 #include "kernel/geometry/directions.h"
-#include "kernel/model/polygon_owners.h"
+#include "model/polygon_owners.h"
 
 #include <algorithm>
 #include <array>

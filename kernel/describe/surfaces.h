@@ -1,12 +1,12 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/description/surface_table.h"
-#include "kernel/model/polygon_owners.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
+#include "model/building.h"
+#include "model/description/feature_table.h"
+#include "model/description/surface_table.h"
+#include "model/polygon_owners.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <array>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "kernel/base/text/numbers.h"
 #include "kernel/geometry/boxes.h"
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 
 #include "kernel/base/text/numbers.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/model/whole_point.h"
+#include "model/whole_point.h"
 
 #include <functional>
 #include <span>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/model/solid.h"
+#include "model/building.h"
+#include "model/solid.h"
 
 #include <span>
 #include <vector>

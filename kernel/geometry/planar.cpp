@@ -1,6 +1,6 @@
 #include "kernel/geometry/planar.h"
 
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <array>

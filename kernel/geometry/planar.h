@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

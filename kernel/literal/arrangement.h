@@ -2,8 +2,8 @@
 
 #include "kernel/base/work.h"
 #include "kernel/literal/bits.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/vec3.h"
+#include "model/solid.h"
+#include "model/vec3.h"
 
 #include <optional>
 #include <vector>

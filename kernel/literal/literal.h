@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <array>
 #include <cstddef>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/base/ids.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/vec3.h"
 #include "kernel/solidify/solidify.h"
+#include "model/solid.h"
+#include "model/vec3.h"
 
 #include <array>
 #include <cstddef>

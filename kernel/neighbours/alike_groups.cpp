@@ -2,8 +2,8 @@
 
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/geometry/shared_area.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/neighbours/contacts.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

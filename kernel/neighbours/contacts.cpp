@@ -2,7 +2,7 @@
 
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/shared_area.h"
-#include "kernel/model/tolerances.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

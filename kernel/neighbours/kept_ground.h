@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/geometry/box_tree.h"
-#include "kernel/model/vec3.h"
 #include "kernel/neighbours/footprint_union.h"
+#include "model/vec3.h"
 
 #include <optional>
 #include <span>

@@ -4,10 +4,10 @@
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/geometry/shared_area.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/neighbours/before_wall.h"
 #include "kernel/neighbours/contacts.h"
 #include "kernel/neighbours/shape_store.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <array>

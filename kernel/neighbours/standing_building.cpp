@@ -3,8 +3,8 @@
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/shared_area.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/neighbours/before_wall.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <array>

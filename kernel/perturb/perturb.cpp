@@ -4,8 +4,8 @@
 #include "kernel/base/index.h"
 #include "kernel/base/random.h"
 #include "kernel/geometry/near_points.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/perturb/polygon_triangles.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

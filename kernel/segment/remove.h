@@ -2,9 +2,9 @@
 
 #include "kernel/base/code.h"
 #include "kernel/base/work.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
 #include "kernel/segment/segment.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <string>
 #include <vector>

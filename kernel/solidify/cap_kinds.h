@@ -3,9 +3,9 @@
 #include "kernel/base/index.h"
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/repair.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/repair.h"
 
 #include <span>
 #include <vector>

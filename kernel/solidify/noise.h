@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/tolerances.h"
+#include "model/building.h"
+#include "model/tolerances.h"
 
 namespace oriel {
 

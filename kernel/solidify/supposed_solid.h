@@ -2,10 +2,10 @@
 
 #include "kernel/base/issue.h"
 #include "kernel/base/work.h"
-#include "kernel/model/building.h"
-#include "kernel/model/repair.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
+#include "model/building.h"
+#include "model/repair.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <optional>
 #include <vector>

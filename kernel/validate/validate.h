@@ -2,7 +2,7 @@
 
 #include "kernel/base/code.h"
 #include "kernel/base/work.h"
-#include "kernel/model/building.h"
+#include "model/building.h"
 
 #include <cstddef>
 #include <cstdint>

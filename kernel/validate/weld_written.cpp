@@ -4,8 +4,8 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/near_points.h"
-#include "kernel/model/whole_point.h"
 #include "kernel/solidify/shells/shells.h"
+#include "model/whole_point.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/solid.h"
 #include "kernel/validate/part_folded.h"
+#include "model/building.h"
+#include "model/solid.h"
 
 #include <optional>
 #include <span>

@@ -3,8 +3,8 @@
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/text/printable.h"
 #include "kernel/geometry/outlines.h"
-#include "kernel/model/polygon_owners.h"
-#include "kernel/model/vec3.h"
+#include "model/polygon_owners.h"
+#include "model/vec3.h"
 #include "oriel/corrections.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan/plan.h"
-#include "kernel/io/levels/written_grid.h"
+#include "io/levels/written_grid.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/drawing_quality.h"

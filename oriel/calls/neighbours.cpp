@@ -1,6 +1,6 @@
 #include "oriel/neighbours.h"
 
-#include "kernel/io/objects/ground_areas.h"
+#include "io/objects/ground_areas.h"
 
 #include <utility>
 

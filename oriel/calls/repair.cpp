@@ -1,7 +1,7 @@
 #include "oriel/repair.h"
 
 #include "generalise/generalise.h"
-#include "kernel/model/version.h"
+#include "model/version.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
 #include "oriel/pipeline/repair_and_retry.h"

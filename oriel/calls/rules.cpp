@@ -1,6 +1,6 @@
 #include "oriel/rules.h"
 
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "oriel/segment.h"
 
 #include <utility>

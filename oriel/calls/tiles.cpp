@@ -1,8 +1,8 @@
 #include "oriel/tiles.h"
 
 #include "generalise/series/scale_series.h"
-#include "kernel/io/cityjson/material_colours.h"
-#include "kernel/io/mesh/mesh_writer.h"
+#include "io/cityjson/material_colours.h"
+#include "io/mesh/mesh_writer.h"
 #include "kernel/mesh/level_distance.h"
 
 #include <algorithm>

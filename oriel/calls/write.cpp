@@ -1,12 +1,12 @@
 #include "oriel/write.h"
 
+#include "io/citygml/write/citygml_writer.h"
+#include "io/cityjson/cityjson_collector.h"
+#include "io/gltf/glb_writer.h"
+#include "io/gpkg/gpkg_rows.h"
+#include "io/gpkg/gpkg_writer.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/log.h"
-#include "kernel/io/citygml/write/citygml_writer.h"
-#include "kernel/io/cityjson/cityjson_collector.h"
-#include "kernel/io/gltf/glb_writer.h"
-#include "kernel/io/gpkg/gpkg_rows.h"
-#include "kernel/io/gpkg/gpkg_writer.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
+#include "io/json/raw_json.h"
 #include "kernel/base/text/json_text.h"
-#include "kernel/io/json/raw_json.h"
 #include "oriel/energy.h"
 
 #include <algorithm>

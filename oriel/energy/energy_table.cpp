@@ -1,7 +1,7 @@
+#include "io/cityjson/cityjson_source.h"
+#include "io/json/raw_json.h"
+#include "io/records/feature_records.h"
 #include "kernel/base/text/json_text.h"
-#include "kernel/io/cityjson/cityjson_source.h"
-#include "kernel/io/json/raw_json.h"
-#include "kernel/io/records/feature_records.h"
 #include "oriel/energy.h"
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 #include "generalise/generalise.h"
-#include "interpret/language/suggest.h"
 #include "interpret/surfaces/label_classes.h"
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/index.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/suggest.h"
 #include "kernel/describe/surfaces.h"
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 #include "oriel/energy.h"
 #include "oriel/options.h"
 
@@ -438,9 +438,9 @@ BuildingEnergy energy_of(const Building& building, const PipelineResult& result,
 std::string unknown_class(const RuleBase& rules, const EnergyOptions& energy) {
   const std::vector<std::string> known = class_names(rules), usual = EnergyOptions{}.unheated;
   for (const std::string& name : energy.unheated)
-    if (!name.empty() && !rules::contains(known, name) && !rules::contains(usual, name))
+    if (!name.empty() && !contains(known, name) && !contains(usual, name))
       return fmt::format("the pack has no class '{}'{}", printable(name),
-                         rules::did_you_mean(name, known));
+                         did_you_mean(name, known));
   return {};
 }
 

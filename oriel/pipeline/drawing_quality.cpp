@@ -1,7 +1,7 @@
 #include "oriel/pipeline/drawing_quality.h"
 
+#include "io/levels/written_grid.h"
 #include "kernel/base/index.h"
-#include "kernel/io/levels/written_grid.h"
 #include "oriel/label.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
-#include "kernel/io/document.h"
-#include "kernel/model/building.h"
-#include "kernel/model/labelled_building.h"
+#include "io/document.h"
+#include "model/building.h"
+#include "model/labelled_building.h"
 #include "oriel/generalise.h"
 #include "oriel/result.h"
 

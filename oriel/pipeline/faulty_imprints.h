@@ -1,10 +1,10 @@
 #pragma once
 
+#include "io/document.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/document.h"
-#include "kernel/model/description/feature_table.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
+#include "model/description/feature_table.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
-#include "kernel/model/description/surface_table.h"
+#include "model/description/surface_table.h"
 
 #include <algorithm>
 #include <cmath>

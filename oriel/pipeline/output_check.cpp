@@ -1,8 +1,8 @@
 #include "oriel/pipeline/output_check.h"
 
+#include "io/cityjson/cityjson_source.h"
+#include "io/levels/written_grid.h"
 #include "kernel/base/index.h"
-#include "kernel/io/cityjson/cityjson_source.h"
-#include "kernel/io/levels/written_grid.h"
 #include "kernel/validate/part_folded.h"
 #include "kernel/validate/weld_written.h"
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "generalise/invariants/invariants.h"
+#include "io/document.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/document.h"
-#include "kernel/model/labelled_building.h"
-#include "kernel/model/solid.h"
 #include "kernel/validate/validate.h"
+#include "model/labelled_building.h"
+#include "model/solid.h"
 
 #include <cstdint>
 #include <optional>

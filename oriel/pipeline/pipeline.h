@@ -3,7 +3,7 @@
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/log.h"
 #include "kernel/base/work.h"
-#include "kernel/model/building.h"
+#include "model/building.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
 #include "oriel/stage.h"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "io/document.h"
 #include "kernel/base/work.h"
-#include "kernel/io/document.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
 

@@ -1,7 +1,7 @@
 #include "oriel/pipeline/series_files.h"
 
-#include "kernel/io/files/partial_files.h"
-#include "kernel/io/levels/level_file.h"
+#include "io/files/partial_files.h"
+#include "io/levels/level_file.h"
 
 #include <charconv>
 #include <cstdint>

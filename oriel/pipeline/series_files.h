@@ -1,11 +1,11 @@
 #pragma once
 
+#include "io/document.h"
+#include "io/reader.h"
+#include "io/records/log_seal.h"
+#include "io/records/operation_log.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/document.h"
-#include "kernel/io/reader.h"
-#include "kernel/io/records/log_seal.h"
-#include "kernel/io/records/operation_log.h"
-#include "kernel/model/scale_series.h"
+#include "model/scale_series.h"
 
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "generalise/series/scale_series.h"
-#include "kernel/io/levels/written_grid.h"
-#include "kernel/io/records/operation_log.h"
-#include "kernel/io/writer.h"
+#include "io/levels/written_grid.h"
+#include "io/records/operation_log.h"
+#include "io/writer.h"
 #include "oriel/pipeline/series_files.h"
 #include "oriel/series.h"
 

@@ -1,7 +1,7 @@
 #include "oriel/pipeline/targets.h"
 
 #include "kernel/base/index.h"
-#include "kernel/model/tolerances.h"
+#include "model/tolerances.h"
 
 #include <algorithm>
 #include <optional>

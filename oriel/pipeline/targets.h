@@ -3,7 +3,7 @@
 #include "generalise/invariants/invariants.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"
-#include "kernel/io/document.h"
+#include "io/document.h"
 #include "kernel/neighbours/neighbours.h"
 #include "oriel/result.h"
 

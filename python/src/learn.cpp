@@ -1,4 +1,4 @@
-#include "oriel/experiments/learn.h"
+#include "oriel/learn.h"
 
 #include "oriel/corrections.h"
 #include "oriel/rules.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/editing.h"
+#include "studio/editing/edited_pack.h"
 
 #include <cstdint>
 #include <map>

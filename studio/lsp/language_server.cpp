@@ -1,6 +1,6 @@
 #include "studio/lsp/language_server.h"
 
-#include "kernel/io/files/output_file.h"
+#include "io/files/output_file.h"
 #include "oriel/rules.h"
 #include "studio/lsp/documents.h"
 #include "studio/lsp/file_uri.h"

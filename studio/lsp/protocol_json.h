@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/editing.h"
+#include "studio/editing/edited_pack.h"
 #include "studio/lsp/documents.h"
 #include "studio/lsp/json_value.h"
 

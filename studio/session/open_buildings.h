@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/io/document.h"
-#include "kernel/model/building.h"
-#include "kernel/model/polygon_owners.h"
+#include "io/document.h"
+#include "model/building.h"
+#include "model/polygon_owners.h"
 #include "oriel/corrections.h"
 #include "oriel/result.h"
 #include "oriel/score.h"

@@ -1,7 +1,7 @@
 #include "studio/session/saved_file.h"
 
-#include "kernel/io/files/file_lock.h"
-#include "kernel/io/files/output_file.h"
+#include "io/files/file_lock.h"
+#include "io/files/output_file.h"
 #include "studio/session/request_body.h"
 
 #include <cerrno>

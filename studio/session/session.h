@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpret/experiment/parallel.h"
+#include "kernel/base/parallel.h"
 #include "oriel/label.h"
 #include "oriel/read.h"
 #include "studio/session/work_log.h"

@@ -1,7 +1,7 @@
 #include "examples/generator/output/citygml.h"
 
 #include "examples/generator/generate.h"
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "tests/cli/command.h"
 #include "tests/support/citygml_samples.h"
 #include "tests/support/shared.h"

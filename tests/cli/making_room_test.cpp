@@ -1,4 +1,4 @@
-#include "kernel/model/building.h"
+#include "model/building.h"
 #include "tests/cli/command.h"
 #include "tests/cli/json_lines.h"
 #include "tests/support/shapes.h"

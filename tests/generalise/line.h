@@ -2,10 +2,10 @@
 
 #include "generalise/generalise.h"
 #include "interpret/pack/rule_base.h"
+#include "io/document.h"
 #include "kernel/describe/describe.h"
-#include "kernel/io/document.h"
-#include "kernel/model/building.h"
-#include "kernel/model/interpretation.h"
+#include "model/building.h"
+#include "model/interpretation.h"
 
 #include <string>
 #include <vector>

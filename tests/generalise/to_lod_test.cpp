@@ -1,7 +1,7 @@
 #include "generalise/to_lod.h"
 
 #include "generalise/invariants/fineness.h"
-#include "kernel/io/writer.h"
+#include "io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"
 

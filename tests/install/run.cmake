@@ -13,7 +13,7 @@ set(prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
 foreach(file bin/oriel share/oriel/rules/residential.yaml include/oriel/oriel/oriel.h
-        include/oriel/kernel/model/version.h)
+        include/oriel/model/version.h)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "not installed: ${file}")
   endif()

@@ -2,8 +2,8 @@
 
 #include "interpret/labelling/interpret.h"
 #include "interpret/pack/rule_base.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/description/feature_table.h"
+#include "model/description/feature_graph.h"
+#include "model/description/feature_table.h"
 
 #include <map>
 #include <string>

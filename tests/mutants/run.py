@@ -29,9 +29,9 @@ from mutations import mutations_of
 from tree import Tree
 
 ROOT = Path(__file__).resolve().parents[2]
-ROOMS = ("kernel", "interpret", "generalise")
-PROGRAMS = ("test_kernel_base", "test_kernel_model", "test_kernel_geometry", "test_kernel_mesh", "test_kernel_attach", "test_kernel_blocks",
-            "test_kernel_describe", "test_kernel_io", "test_kernel_solidify", "test_kernel_segment", "test_kernel_validate",
+ROOMS = ("model", "kernel", "io", "interpret", "generalise")
+PROGRAMS = ("test_kernel_base", "test_model", "test_kernel_geometry", "test_kernel_mesh", "test_kernel_attach", "test_kernel_blocks",
+            "test_kernel_describe", "test_io", "test_kernel_solidify", "test_kernel_segment", "test_kernel_validate",
             "test_interpret", "test_generalise", "test_oriel", "test_cli", "test_fuzz_replay")
 SPARE = 1.2  # how many more changes are drawn than judged, for those that do not compile
 SAME = re.compile(r'return (0|""|nullptr);')  # as what is returned in their place

@@ -8,7 +8,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 # What of the repository the tests need.
-FOLDERS = ("bench", "cli", "docs", "examples", "generalise", "interpret", "kernel", "oriel", "rules", "tests", ".ci")
+FOLDERS = ("bench", "cli", "docs", "examples", "experiments", "generalise", "interpret", "io", "kernel", "model", "oriel", "rules", "tests", ".ci")
 # The first lines of a file with switches; its own lines count from 1.
 MARK = '#include "kernel/base/switch.h"\n#line 1\n'
 ERROR = re.compile(r"^(?:In file included from )?(/[^\s:]+\.cpp):(\d+)(?::\d+)?:.*?(?:(error):|required from|$)", re.M)
@@ -72,7 +72,7 @@ class Tree:
         for number, mutation in enumerate(mutations, 1):
             if mutation is not None:
                 by_path.setdefault(mutation.path, []).append((mutation, number))
-        for room in ("kernel", "interpret", "generalise"):
+        for room in ("model", "kernel", "io", "interpret", "generalise"):
             for path in (self.folder / room).rglob("*.cpp"):
                 name = os.path.relpath(path, self.folder)
                 if name not in by_path and is_switched(path):

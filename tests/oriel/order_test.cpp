@@ -1,4 +1,4 @@
-#include "kernel/model/canonical_order.h"
+#include "model/canonical_order.h"
 #include "oriel/oriel.h"
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"

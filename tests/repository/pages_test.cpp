@@ -28,8 +28,8 @@ std::vector<fs::path> pages() {
   std::vector<fs::path> found;
   for (const char* name : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"})
     if (fs::exists(kRoot / name)) found.push_back(kRoot / name);
-  for (const char* folder : {"docs", "kernel", "interpret", "generalise", "oriel", "studio", "cli",
-                             "python", "examples", "bench"})
+  for (const char* folder : {"docs", "model", "kernel", "io", "interpret", "generalise", "oriel",
+                             "experiments", "studio", "cli", "python", "examples", "bench"})
     if (fs::exists(kRoot / folder))
       for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
         if (entry.path().extension() == ".md") found.push_back(entry.path());
@@ -107,7 +107,7 @@ TEST_SUITE("repository") {
 
   TEST_CASE("every path of the repository that a page names is there") {
     const std::string pattern =
-        R"(`((?:docs|kernel|interpret|generalise|oriel|studio|cli|python|rules|tests|bench|examples)/[A-Za-z0-9_./-]+)`)";
+        R"(`((?:docs|model|kernel|io|interpret|generalise|oriel|experiments|studio|cli|python|rules|tests|bench|examples)/[A-Za-z0-9_./-]+)`)";
     std::size_t paths = 0;
     for (const fs::path& page : pages()) {
       if (page.filename() == "CHANGELOG.md") continue;  // what was
@@ -146,8 +146,8 @@ TEST_SUITE("repository") {
 
   TEST_CASE("every room has a page that says what happens in it") {
     std::vector<fs::path> rooms;
-    for (const char* room :
-         {"kernel", "interpret", "generalise", "oriel", "studio", "cli", "python"})
+    for (const char* room : {"model", "kernel", "io", "interpret", "generalise", "oriel",
+                             "experiments", "studio", "cli", "python"})
       if (fs::exists(kRoot / room)) rooms.push_back(kRoot / room);
     for (const auto& entry : fs::directory_iterator(kRoot / "kernel"))
       if (entry.is_directory()) rooms.push_back(entry.path());

@@ -14,23 +14,23 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::string> kKeepers{
     {"kernel/base/name.cpp", "texts of names, behind a lock"},
     {"kernel/base/log.cpp", "loggers, behind a lock"},
-    {"kernel/io/gltf/glb_buffers.cpp", "versions of the library, chosen once, behind a lock"},
-    {"kernel/io/files/leftovers.cpp", "files of killed runs, behind a lock"},
-    {"kernel/io/files/partial_files.cpp", "open outputs, of the one thread that writes"},
+    {"io/gltf/glb_buffers.cpp", "versions of the library, chosen once, behind a lock"},
+    {"io/files/leftovers.cpp", "files of killed runs, behind a lock"},
+    {"io/files/partial_files.cpp", "open outputs, of the one thread that writes"},
     {"studio/server/shared_work.cpp",
      "what a thread is at, of this thread; where a handler writes"},
 };
 
 /// Objects that change though they are constant, and why no two threads have one.
 const std::map<std::string, std::string> kChangesWithin{
-    {"interpret/experiment/learn/learning_set.h", "behind a lock"},
+    {"interpret/learn/learning_set.h", "behind a lock"},
     {"interpret/pack/extend.cpp", "given back as constant as it came"},
     {"interpret/relabelling/relabelling.cpp", "of one call"},
     {"interpret/yaml/yaml_tree.cpp", "of a library that only reads"},
     {"kernel/describe/features/parallel_polygons.h", "of one building"},
     {"kernel/describe/surfaces/surface_faces.h", "of one building"},
     {"kernel/describe/surfaces/vertical_lines.h", "of one building"},
-    {"kernel/io/files/gzip.cpp", "of a library that only reads"},
+    {"io/files/gzip.cpp", "of a library that only reads"},
     {"kernel/neighbours/shape_store.h", "behind a lock"},
     {"kernel/segment/boundary/boundary.h", "of one building"},
     {"kernel/segment/cuts/pockets.h", "of one building"},
@@ -72,7 +72,8 @@ bool has_line(const fs::path& path, bool (*is_such)(const std::string&)) {
 std::map<std::string, std::string> files_with(bool (*is_such)(const std::string&),
                                               const std::map<std::string, std::string>& known) {
   std::map<std::string, std::string> found;
-  for (const char* room : {"kernel", "interpret", "generalise", "oriel", "studio", "python"})
+  for (const char* room : {"model", "kernel", "io", "interpret", "generalise", "oriel",
+                           "experiments", "studio", "python"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ORIEL_SOURCE_DIR) / room)) {
       const bool is_code = entry.path().extension() == ".cpp" || entry.path().extension() == ".h";
       if (!is_code || !has_line(entry.path(), is_such)) continue;

@@ -221,7 +221,8 @@ using Places = std::map<std::string, std::vector<std::string>>;
 std::pair<Places, Places> places_of_names() {
   std::pair<Places, Places> places;
   const fs::path root = ORIEL_SOURCE_DIR;
-  for (const char* room : {"kernel", "interpret", "generalise", "oriel", "studio", "cli", "python"})
+  for (const char* room : {"model", "kernel", "io", "interpret", "generalise", "oriel",
+                           "experiments", "studio", "cli", "python"})
     for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
       const fs::path& path = entry.path();
       if (path.extension() != ".h" && path.extension() != ".cpp") continue;

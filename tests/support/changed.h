@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/canonical_order.h"
+#include "model/building.h"
+#include "model/canonical_order.h"
 
 #include <algorithm>
 #include <cmath>

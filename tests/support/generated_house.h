@@ -1,7 +1,7 @@
 #pragma once
 
 #include "examples/generator/generate.h"
-#include "kernel/model/building.h"
+#include "model/building.h"
 #include "tests/support/changed.h"
 
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/geometry/planar.h"
-#include "kernel/model/segmentation.h"
+#include "model/segmentation.h"
 
 #include <algorithm>
 #include <random>

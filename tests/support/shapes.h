@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/vec3.h"
+#include "model/building.h"
+#include "model/vec3.h"
 
 #include <string>
 #include <vector>

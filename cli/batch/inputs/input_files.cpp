@@ -2,10 +2,10 @@
 
 #include "cli/batch/run_options.h"
 #include "cli/terminal/logging.h"
+#include "io/files/format.h"
+#include "io/files/partial_files.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/text/counted.h"
-#include "kernel/io/files/format.h"
-#include "kernel/io/files/partial_files.h"
 
 #include <algorithm>
 #include <cstddef>

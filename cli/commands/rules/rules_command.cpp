@@ -6,9 +6,9 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
+#include "io/files/output_file.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/io/files/output_file.h"
 #include "oriel/rules.h"
 
 #include <filesystem>

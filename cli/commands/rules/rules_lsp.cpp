@@ -1,5 +1,5 @@
-#include "cli/commands/rules/rules_reference.h"
-#include "kernel/model/version.h"
+#include "cli/commands/commands.h"
+#include "model/version.h"
 #include "studio/lsp/language_server.h"
 
 #include <cstdint>

@@ -3,8 +3,8 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
-#include "interpret/language/suggest.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/suggest.h"
 #include "oriel/rules.h"
 
 #include <memory>
@@ -82,9 +82,9 @@ void print_word(const VocabularyWord& word, const WordList& list) {
                     word.example));
     for (const std::string& argument : word.values) add("argument", argument);
   } else {
-    add("values", rules::join(word.values));
+    add("values", join(word.values));
   }
-  add("also called", rules::join(word.synonyms));
+  add("also called", join(word.synonyms));
   print_out(text);
 }
 
@@ -100,7 +100,7 @@ bool print_named(const std::string& name, const std::vector<WordList>& lists) {
   }
   if (!is_found)
     run_log().write(LogLevel::error, fmt::format("there is no {} '{}'{}", lists.front().kind,
-                                                 printable(name), rules::did_you_mean(name, all)));
+                                                 printable(name), did_you_mean(name, all)));
   return is_found;
 }
 
@@ -163,7 +163,7 @@ std::string in_capitals(std::string text) {
 void report_unknown_code(const std::string& text) {
   std::vector<std::string> all;
   for (const Code code : all_codes()) all.push_back(to_string(code));
-  const std::string near = rules::did_you_mean(text, all);
+  const std::string near = did_you_mean(text, all);
   run_log().write(LogLevel::error,
                   fmt::format("there is no code '{}'{}", printable(text),
                               near.empty() ? "; codes are such as E101, G404 and R204" : near));

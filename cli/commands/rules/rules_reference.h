@@ -9,7 +9,5 @@ namespace oriel::cli {
 void add_rules_doc(CLI::App& rules, Action& action);
 void add_rules_words(CLI::App& rules, Action& action);
 void add_rules_explain(CLI::App& rules, Action& action);
-/// `rules lsp`: what editors ask while a pack is written.
-void add_rules_lsp(CLI::App& rules, Action& action);
 
 }  // namespace oriel::cli

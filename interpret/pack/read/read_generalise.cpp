@@ -1,8 +1,8 @@
-#include "interpret/language/suggest.h"
 #include "interpret/language/synonyms.h"
 #include "interpret/pack/loader.h"
 #include "interpret/plan/operators.h"
 #include "interpret/yaml/section.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,9 +2,9 @@
 #include "interpret/compile/name_lookup.h"
 #include "interpret/language/parser.h"
 #include "interpret/language/quantity.h"
-#include "interpret/language/suggest.h"
 #include "interpret/pack/loader.h"
 #include "interpret/yaml/section.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "interpret/language/suggest.h"
 #include "interpret/pack/loader.h"
 #include "interpret/yaml/section.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <string>

@@ -1,9 +1,9 @@
 #include "interpret/compile/reads.h"
 #include "interpret/language/parser.h"
-#include "interpret/language/suggest.h"
 #include "interpret/pack/loader.h"
 #include "interpret/surfaces/surface_rules.h"
 #include "interpret/yaml/section.h"
+#include "kernel/base/text/suggest.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "kernel/describe/features/facades.h"
 
 #include "kernel/base/index.h"
-#include "kernel/model/tolerances.h"
+#include "model/tolerances.h"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 
 #include "kernel/base/work.h"
 #include "kernel/describe/features/shape.h"
-#include "kernel/model/segmentation.h"
+#include "model/segmentation.h"
 
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/segmentation.h"
+#include "model/building.h"
+#include "model/segmentation.h"
 
 #include <cstddef>
 #include <optional>

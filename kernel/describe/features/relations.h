@@ -2,8 +2,8 @@
 
 #include "kernel/base/work.h"
 #include "kernel/describe/features/shape.h"
-#include "kernel/model/description/feature_graph.h"
-#include "kernel/model/segmentation.h"
+#include "model/description/feature_graph.h"
+#include "model/segmentation.h"
 
 #include <span>
 #include <vector>

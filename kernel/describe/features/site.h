@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/describe/features/shape.h"
-#include "kernel/model/segmentation.h"
+#include "model/segmentation.h"
 
 #include <optional>
 #include <set>

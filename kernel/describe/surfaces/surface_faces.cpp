@@ -1,7 +1,7 @@
 #include "kernel/describe/surfaces/surface_faces.h"
 
 #include "kernel/describe/features/shape.h"
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/solid.h"
 #include "kernel/segment/boundary/boundary.h"
+#include "model/solid.h"
 
 #include <array>
 #include <cstdint>

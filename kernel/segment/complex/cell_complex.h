@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/cell_complex.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/tolerances.h"
+#include "model/cell_complex.h"
+#include "model/segmentation.h"
+#include "model/tolerances.h"
 
 #include <optional>
 

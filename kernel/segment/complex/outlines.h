@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/model/cell_complex.h"
-#include "kernel/model/segmentation.h"
 #include "kernel/segment/complex/vertex_pool.h"
+#include "model/cell_complex.h"
+#include "model/segmentation.h"
 
 #include <span>
 #include <vector>

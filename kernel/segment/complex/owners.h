@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/segmentation.h"
+#include "model/segmentation.h"
 
 #include <map>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/vec3.h"
 #include "kernel/segment/complex/vertex_pool.h"
+#include "model/vec3.h"
 
 #include <cmath>
 #include <utility>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "kernel/model/cell_complex.h"
-#include "kernel/model/segmentation.h"
 #include "kernel/segment/complex/owners.h"
 #include "kernel/segment/complex/refine.h"
 #include "kernel/segment/complex/vertex_pool.h"
+#include "model/cell_complex.h"
+#include "model/segmentation.h"
 
 #include <map>
 #include <span>

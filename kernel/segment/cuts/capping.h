@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/model/vec3.h"
 #include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/cuts/carve.h"
+#include "model/vec3.h"
 
 #include <memory>
 #include <optional>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "kernel/model/segmentation.h"
 #include "kernel/segment/cuts/corner_holes.h"
 #include "kernel/segment/cuts/cut_candidates.h"
 #include "kernel/segment/cuts/lump.h"
 #include "kernel/segment/cuts/pockets.h"
 #include "kernel/segment/segment.h"
+#include "model/segmentation.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "kernel/model/segmentation.h"
 #include "kernel/segment/sections/edge_index.h"
 #include "kernel/segment/sections/natural_chains.h"
 #include "kernel/segment/sections/section.h"
 #include "kernel/segment/segment.h"
+#include "model/segmentation.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "kernel/segment/cuts/patch.h"
 
 #include "kernel/base/index.h"
-#include "kernel/model/description/counting_sort.h"
+#include "model/description/counting_sort.h"
 
 #include <algorithm>
 #include <array>

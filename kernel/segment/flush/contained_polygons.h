@@ -2,8 +2,8 @@
 
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/segment/flush/subdivisions.h"
+#include "model/tolerances.h"
 
 #include <vector>
 

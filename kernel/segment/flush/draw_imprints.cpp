@@ -3,7 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <vector>
 

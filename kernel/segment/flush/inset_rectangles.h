@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/tolerances.h"
-#include "kernel/model/vec3.h"
 #include "kernel/segment/flush/subdivisions.h"
+#include "model/tolerances.h"
+#include "model/vec3.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
+#include "model/building.h"
 
 #include <unordered_map>
 #include <vector>

@@ -4,8 +4,8 @@
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/vec3.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <cstddef>

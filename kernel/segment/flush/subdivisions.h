@@ -2,9 +2,9 @@
 
 #include "kernel/base/index.h"
 #include "kernel/base/work.h"
-#include "kernel/model/building.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
+#include "model/building.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <vector>
 

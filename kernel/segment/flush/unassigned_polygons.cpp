@@ -3,7 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/vec3.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/assert.h"
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 
 #include <array>
 #include <optional>

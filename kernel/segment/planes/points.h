@@ -4,8 +4,8 @@
 #include "kernel/base/indexed_vector.h"
 #include "kernel/base/work.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/model/solid.h"
 #include "kernel/segment/planes/planes.h"
+#include "model/solid.h"
 
 #include <algorithm>
 #include <array>

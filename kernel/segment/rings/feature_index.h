@@ -2,9 +2,9 @@
 
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/segment/rings/rings.h"
+#include "model/segmentation.h"
+#include "model/tolerances.h"
 
 #include <vector>
 

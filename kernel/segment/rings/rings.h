@@ -2,10 +2,10 @@
 
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/building.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/segment/flush/polygon_grid.h"
+#include "model/building.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/segmentation.h"
+#include "model/segmentation.h"
 
 #include <cstddef>
 #include <string>

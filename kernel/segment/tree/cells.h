@@ -1,12 +1,12 @@
 #pragma once
 
-#include "kernel/model/building.h"
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/vec3.h"
 #include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/planes/planes.h"
 #include "kernel/segment/planes/points.h"
+#include "model/building.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
+#include "model/vec3.h"
 
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/tolerances.h"
 
 #include <optional>
 #include <vector>

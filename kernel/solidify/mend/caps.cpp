@@ -2,8 +2,8 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/model/vec3.h"
 #include "kernel/solidify/shells/edge_groups.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/repair.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/solidify/mend/exposed_faces.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/repair.h"
+#include "model/tolerances.h"
 
 namespace oriel::detail {
 

@@ -2,10 +2,10 @@
 
 #include "kernel/base/issue.h"
 #include "kernel/base/work.h"
-#include "kernel/model/repair.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/repair.h"
+#include "model/tolerances.h"
 
 #include <optional>
 #include <string>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/vec3.h"
 #include "kernel/solidify/missing/rims.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/vec3.h"
 
 #include <optional>
 #include <span>

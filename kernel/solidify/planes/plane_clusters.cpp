@@ -2,11 +2,11 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/model/description/counting_sort.h"
 #include "kernel/solidify/planes/coplanar_groups.h"
 #include "kernel/solidify/planes/known_planes.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/description/counting_sort.h"
 
 #include <algorithm>
 #include <cmath>

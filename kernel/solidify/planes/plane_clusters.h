@@ -1,10 +1,10 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/solid.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/solid.h"
+#include "model/tolerances.h"
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/axis_corners.h"
 #include "kernel/geometry/disjoint_sets.h"
-#include "kernel/model/description/counting_sort.h"
 #include "kernel/solidify/planes/number_table.h"
+#include "model/description/counting_sort.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/description/counting_sort.h"
 #include "kernel/solidify/shells/shell_mesh.h"
+#include "model/description/counting_sort.h"
 
 #include <algorithm>
 #include <optional>

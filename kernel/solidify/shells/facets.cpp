@@ -2,7 +2,7 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/model/description/counting_sort.h"
+#include "model/description/counting_sort.h"
 
 #include <algorithm>
 #include <utility>

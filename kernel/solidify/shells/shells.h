@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
-#include "kernel/model/solid.h"
+#include "model/solid.h"
 
 #include <span>
 #include <string>

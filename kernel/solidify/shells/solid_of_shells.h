@@ -1,11 +1,11 @@
 #pragma once
 
 #include "kernel/base/work.h"
-#include "kernel/model/building.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 #include "kernel/solidify/solidify.h"
 #include "kernel/solidify/soup/soup.h"
+#include "model/building.h"
+#include "model/tolerances.h"
 
 namespace oriel::detail {
 

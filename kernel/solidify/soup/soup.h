@@ -3,8 +3,8 @@
 #include "kernel/base/issue.h"
 #include "kernel/base/text/numbers.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/model/building.h"
-#include "kernel/model/tolerances.h"
+#include "model/building.h"
+#include "model/tolerances.h"
 
 #include <ranges>
 #include <span>

@@ -1,9 +1,9 @@
 #include "kernel/validate/polygons/polygon_checks.h"
 
 #include "kernel/mesh/triangulate.h"
-#include "kernel/model/vec3.h"
 #include "kernel/validate/polygons/fitted_plane.h"
 #include "kernel/validate/polygons/ring_checks.h"
+#include "model/vec3.h"
 
 #include <algorithm>
 #include <array>

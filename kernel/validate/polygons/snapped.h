@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/building.h"
 #include "kernel/validate/solids/predicates.h"
+#include "model/building.h"
 
 #include <optional>
 #include <vector>

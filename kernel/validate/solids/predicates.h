@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/geometry/exact.h"
-#include "kernel/model/vec3.h"
-#include "kernel/model/whole_point.h"
+#include "model/vec3.h"
+#include "model/whole_point.h"
 
 #include <array>
 #include <cstddef>

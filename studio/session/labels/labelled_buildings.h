@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpret/experiment/parallel.h"
+#include "kernel/base/parallel.h"
 #include "oriel/interpret.h"
 #include "oriel/rules.h"
 #include "studio/session/labels/building_score.h"

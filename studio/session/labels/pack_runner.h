@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/editing.h"
+#include "studio/editing/edited_pack.h"
 #include "studio/session/labels/labelled_buildings.h"
 #include "studio/session/learning/correction_book.h"
 #include "studio/session/pack_file.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/experiments/learn.h"
+#include "oriel/learn.h"
 #include "studio/session/labels/labelled_buildings.h"
 
 #include <cstddef>

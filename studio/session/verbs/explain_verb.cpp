@@ -1,9 +1,9 @@
-#include "kernel/model/description/attributes.h"
+#include "model/description/attributes.h"
 #include "oriel/explain.h"
+#include "oriel/plain_sentence.h"
 #include "oriel/rules.h"
 #include "studio/session/desk.h"
 #include "studio/session/labels/pack_answer.h"
-#include "studio/session/plain_sentence.h"
 
 #include <algorithm>
 #include <cmath>

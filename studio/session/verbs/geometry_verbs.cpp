@@ -1,12 +1,12 @@
-#include "kernel/model/version.h"
+#include "model/version.h"
 #include "oriel/explain.h"
 #include "oriel/generalise.h"
+#include "oriel/plain_sentence.h"
+#include "oriel/storeys.h"
 #include "studio/session/desk.h"
 #include "studio/session/geometry_json.h"
 #include "studio/session/labels/pack_answer.h"
 #include "studio/session/open_buildings.h"
-#include "studio/session/plain_sentence.h"
-#include "studio/session/storeys.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "oriel/experiments/learn.h"
+#include "oriel/learn.h"
+#include "oriel/plain_sentence.h"
 #include "studio/session/desk.h"
-#include "studio/session/plain_sentence.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #include "generalise/series/level_state.h"
-#include "kernel/io/levels/level_file.h"
-#include "kernel/io/records/operation_log.h"
+#include "io/levels/level_file.h"
+#include "io/records/operation_log.h"
 #include "oriel/series.h"
 #include "oriel/write.h"
 #include "tests/fuzz/support/pack.h"

@@ -1,5 +1,4 @@
-#include "oriel/editing.h"
-
+#include "studio/editing/edited_pack.h"
 #include "tests/fuzz/targets.h"
 
 #include <string>

@@ -1,7 +1,7 @@
-#include "kernel/io/records/feature_tables.h"
+#include "io/records/feature_tables.h"
 
 #include "interpret/labelling/interpret.h"
-#include "kernel/io/records/feature_records.h"
+#include "io/records/feature_records.h"
 #include "tests/fuzz/support/pack.h"
 #include "tests/fuzz/support/scratch_file.h"
 #include "tests/fuzz/targets.h"

@@ -1,5 +1,5 @@
 #include "generalise/series/level_state.h"
-#include "kernel/io/levels/level_file.h"
+#include "io/levels/level_file.h"
 #include "tests/fuzz/targets.h"
 
 namespace oriel::fuzz {

@@ -1,5 +1,5 @@
 #include "generalise/series/scale_series.h"
-#include "kernel/io/records/operation_log.h"
+#include "io/records/operation_log.h"
 #include "tests/fuzz/support/scratch_file.h"
 #include "tests/fuzz/targets.h"
 

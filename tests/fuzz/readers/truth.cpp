@@ -1,4 +1,4 @@
-#include "kernel/io/records/truth.h"
+#include "io/records/truth.h"
 
 #include "oriel/score.h"
 #include "tests/fuzz/support/scratch_file.h"

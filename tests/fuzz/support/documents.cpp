@@ -1,11 +1,11 @@
 #include "tests/fuzz/support/documents.h"
 
-#include "kernel/io/citygml/write/citygml_writer.h"
-#include "kernel/io/gpkg/gpkg_row.h"
-#include "kernel/io/gpkg/gpkg_rows.h"
-#include "kernel/io/mesh/mesh_writer.h"
-#include "kernel/io/reader.h"
-#include "kernel/io/writer.h"
+#include "io/citygml/write/citygml_writer.h"
+#include "io/gpkg/gpkg_row.h"
+#include "io/gpkg/gpkg_rows.h"
+#include "io/mesh/mesh_writer.h"
+#include "io/reader.h"
+#include "io/writer.h"
 #include "tests/fuzz/targets.h"
 
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/io/files/format.h"
+#include "io/files/format.h"
 #include "tests/fuzz/support/scratch_file.h"
 
 #include <string_view>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/segmentation.h"
-#include "kernel/model/solid.h"
+#include "model/segmentation.h"
+#include "model/solid.h"
 
 #include <optional>
 

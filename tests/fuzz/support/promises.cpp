@@ -1,6 +1,6 @@
 #include "tests/fuzz/support/promises.h"
 
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "kernel/validate/validate.h"
 #include "tests/fuzz/support/bodies.h"
 #include "tests/fuzz/support/retold.h"

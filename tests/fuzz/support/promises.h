@@ -1,8 +1,8 @@
 #pragma once
 
+#include "io/document.h"
 #include "kernel/base/issue.h"
-#include "kernel/io/document.h"
-#include "kernel/model/building.h"
+#include "model/building.h"
 #include "oriel/result.h"
 #include "tests/fuzz/support/byte_source.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/description/feature_graph.h"
+#include "model/description/feature_graph.h"
 
 namespace oriel::fuzz {
 

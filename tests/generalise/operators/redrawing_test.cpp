@@ -1,7 +1,7 @@
 #include "generalise/generalise.h"
 #include "generalise/operators/operators.h"
 #include "interpret/plan/plan.h"
-#include "kernel/io/writer.h"
+#include "io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/generalise/operators/drawn_wall.h"
 #include "tests/support/flush.h"

@@ -12,7 +12,7 @@ namespace {
 
 /// A rule that asks for labels of others, one that asks twice, a relation and evidence that move
 /// with params, and scores.
-const std::string kPack =
+const std::string kWhatIfPack =
     "schema: oriel/1\n"
     "pack: {name: t, version: 1.0.0}\n"
     "params:\n"
@@ -45,7 +45,8 @@ const std::string kPack =
 
 TEST_SUITE("interpret/explain") {
   TEST_CASE("labels with another value are those of a pack that states it") {
-    const std::vector<RuleBase> packs{load(kPack), load_pack_file("residential").value.value()};
+    const std::vector<RuleBase> packs{load(kWhatIfPack),
+                                      load_pack_file("residential").value.value()};
     std::size_t others = 0;
     CHECK(rc::check("labels", [&] {
       const RuleBase& base = packs[*rc::gen::inRange<std::size_t>(0, packs.size())];

@@ -1,10 +1,10 @@
 #include "interpret/language/synonyms.h"
 
 #include "interpret/language/quantity.h"
-#include "interpret/language/suggest.h"
 #include "interpret/pack/names.h"
 #include "interpret/plan/operators.h"
-#include "kernel/model/description/attributes.h"
+#include "kernel/base/text/suggest.h"
+#include "model/description/attributes.h"
 
 #include <set>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "interpret/pack/vocabulary.h"
 
 #include "interpret/plan/operators.h"
-#include "kernel/model/description/attributes.h"
+#include "model/description/attributes.h"
 #include "tests/interpret/support.h"
 
 using namespace oriel;

@@ -1,7 +1,7 @@
 #include "interpret/surfaces/annotate.h"
 
 #include "kernel/describe/surfaces.h"
-#include "kernel/model/version.h"
+#include "model/version.h"
 #include "tests/interpret/support.h"
 
 #include <algorithm>

@@ -52,8 +52,9 @@ std::map<std::string, std::string> codes_of_profiles() {
 /// What `pattern` finds in the sources of the product, except in the table of codes.
 std::map<std::string, std::string> found_in_sources(const std::regex& pattern,
                                                     const std::vector<const char*>& rooms = {
-                                                        "kernel", "interpret", "generalise", "cli",
-                                                        "oriel", "studio"}) {
+                                                        "model", "kernel", "io", "interpret",
+                                                        "generalise", "cli", "oriel", "experiments",
+                                                        "studio"}) {
   std::map<std::string, std::string> found;
   for (const char* room : rooms) {
     if (!fs::exists(kRoot / room)) continue;

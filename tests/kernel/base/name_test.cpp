@@ -10,7 +10,7 @@
 namespace oriel {
 namespace {
 
-TEST_SUITE("kernel/model") {
+TEST_SUITE("model") {
   TEST_CASE("names of equal texts are the same text in memory") {
     const std::string text = "a label that is longer than what a string holds itself";
     const Name name(text), again(std::string_view{text});

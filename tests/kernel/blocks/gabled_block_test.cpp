@@ -1,8 +1,8 @@
 #include "kernel/blocks/gabled_block.h"
 
 #include "kernel/blocks/upright_block.h"
-#include "kernel/model/tolerances.h"
 #include "kernel/validate/validate.h"
+#include "model/tolerances.h"
 
 #include <doctest/doctest.h>
 

@@ -27,7 +27,7 @@ double doubled_area(const std::vector<Vec3>& points,
 const std::vector<Vec3> kFlat{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0},
                               {1, 1, 0}, {1, 3, 0}, {2, 3, 0}, {2, 1, 0}};
 
-TEST_SUITE("kernel/io") {
+TEST_SUITE("io") {
   TEST_CASE("triangles cover a polygon with a hole in every direction") {
     const Rings rings{{0, 1, 2, 3}, {4, 5, 6, 7}};
     const double s = 1 / std::sqrt(2.0);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/cell_complex.h"
 #include "kernel/segment/complex/cell_complex.h"
+#include "model/cell_complex.h"
 #include "tests/support/inside.h"
 #include "tests/support/segmented.h"
 

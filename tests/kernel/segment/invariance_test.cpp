@@ -1,5 +1,5 @@
+#include "io/records/stage_json.h"
 #include "kernel/describe/describe.h"
-#include "kernel/io/records/stage_json.h"
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"
 #include "tests/support/houses.h"

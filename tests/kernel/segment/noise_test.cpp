@@ -1,5 +1,5 @@
 #include "examples/generator/command.h"
-#include "kernel/io/records/truth.h"
+#include "io/records/truth.h"
 #include "tests/support/boxes.h"
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"

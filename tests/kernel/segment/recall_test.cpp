@@ -1,4 +1,4 @@
-#include "kernel/io/records/truth.h"
+#include "io/records/truth.h"
 #include "tests/support/boxes.h"
 #include "tests/support/corpus.h"
 #include "tests/support/generated.h"

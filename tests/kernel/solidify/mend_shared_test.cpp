@@ -1,4 +1,4 @@
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "kernel/solidify/solidify.h"
 #include "tests/support/shared.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/io/reader.h"
+#include "io/reader.h"
 #include "kernel/validate/validate.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oriel/editing.h"
+#include "studio/editing/edited_pack.h"
 #include "studio/lsp/language_server.h"
 #include "studio/lsp/message_stream.h"
 

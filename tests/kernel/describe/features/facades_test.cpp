@@ -1,6 +1,6 @@
 #include "kernel/describe/features/facades.h"
 
-#include "kernel/model/tolerances.h"
+#include "model/tolerances.h"
 
 #include <doctest/doctest.h>
 

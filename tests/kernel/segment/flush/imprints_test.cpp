@@ -1,7 +1,7 @@
 #include "kernel/segment/flush/imprints.h"
 
 #include "examples/generator/generate.h"
-#include "kernel/io/records/truth.h"
+#include "io/records/truth.h"
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"
 #include "tests/support/flush.h"

@@ -1,0 +1,163 @@
+#include "io/cityjson/carried_labels.h"
+
+#include "io/cityjson/cityjson_geometry.h"
+#include "io/cityjson/cityjson_source.h"
+#include "io/cityjson/write/geometry_text.h"
+#include "io/json/raw_json.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <unordered_map>
+
+namespace oriel {
+
+namespace {
+
+using detail::RawNode;
+
+std::string text_of(const RawNode& node, std::string_view key) {
+  const std::string_view value = node.value_of(key);
+  return value.starts_with('"') ? detail::decoded(value) : "";
+}
+
+double number_of(const RawNode& node, std::string_view key) {
+  const std::string_view value = node.value_of(key);
+  double number = 0;
+  std::from_chars(value.data(), value.data() + value.size(), number);
+  return number;
+}
+
+/// The members that oriel wrote; nothing if there is no oriel_id.
+std::optional<CarriedFeature> feature_of(const RawNode& members) {
+  CarriedFeature feature;
+  feature.id = text_of(members, "oriel_id");
+  if (feature.id.empty()) return std::nullopt;
+  feature.label = text_of(members, "oriel_subclass");
+  if (feature.label.empty()) feature.label = text_of(members, "oriel_label");
+  feature.score = number_of(members, "oriel_score");
+  feature.name = text_of(members, "oriel_name");
+  feature.rule = text_of(members, "oriel_rule");
+  feature.why = text_of(members, "oriel_why");
+  return feature;
+}
+
+/// Joins it to the feature with its id, if there is one already.
+void add(CarriedLabels& labels, CarriedFeature feature) {
+  const auto found = std::ranges::find(labels.features, feature.id, &CarriedFeature::id);
+  if (found == labels.features.end()) {
+    labels.features.push_back(std::move(feature));
+    return;
+  }
+  auto& polygons = found->polygons;
+  polygons.insert(polygons.end(), feature.polygons.begin(), feature.polygons.end());
+  std::ranges::sort(polygons);
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+}
+
+struct Shape {
+  detail::GeometryText text;
+  std::string_view semantics;
+};
+
+Shape shape_of(const RawNode& geometry) {
+  const auto kind = detail::kind_of_geometry(text_of(geometry, "type"));
+  return {detail::geometry_of(geometry.value_of("boundaries"), kind ? kind->depth : 0, true),
+          geometry.value_of("semantics")};
+}
+
+/// Reads the surfaces of the polygons that follow those that `labels` has already.
+void read_surfaces(const Shape& shape, CarriedLabels& labels) {
+  const std::size_t first = labels.surfaces.size();
+  labels.surfaces.resize(first + shape.text.polygons.size());
+  if (!RawNode::is_object(shape.semantics)) return;
+  const auto surfaces = detail::elements_of(RawNode(shape.semantics).value_of("surfaces"));
+  const std::vector<int> numbers = detail::surface_numbers(shape.semantics, shape.text.shape);
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    if (!RawNode::is_object(surfaces[s])) continue;
+    const RawNode surface(surfaces[s]);
+    const CarriedSurface said{text_of(surface, "type"), text_of(surface, "oriel_why")};
+    auto feature = feature_of(surface);
+    for (std::size_t polygon = 0; polygon < numbers.size(); ++polygon) {
+      if (numbers[polygon] != static_cast<int>(s)) continue;
+      labels.surfaces[first + polygon] = said;
+      if (feature) feature->polygons.push_back(static_cast<int>(first + polygon));
+    }
+    if (feature && !feature->polygons.empty()) add(labels, std::move(*feature));
+  }
+}
+
+}  // namespace
+
+struct CarriedLabelReader::State {
+  explicit State(const Document& of) : document(of) {
+    if (!document.source) return;
+    const std::string_view text = document.source->text;
+    objects.emplace(RawNode(text.substr(text.find('{'))).value_of("CityObjects"));
+    for (std::size_t i = 0; i < objects->size(); ++i) number_of.try_emplace(objects->key(i), i);
+  }
+
+  void read_installation(std::string_view object,
+                         const std::unordered_map<std::string_view, int>& polygon_of,
+                         CarriedLabels& labels) const;
+
+  const Document& document;
+  std::optional<RawNode> objects;
+  std::unordered_map<std::string, std::size_t> number_of;
+};
+
+CarriedLabelReader::CarriedLabelReader(const Document& document)
+    : state_(std::make_unique<State>(document)) {}
+CarriedLabelReader::~CarriedLabelReader() = default;
+
+/// Its polygons are those of the building with the same corners, in the same order.
+void CarriedLabelReader::State::read_installation(
+    std::string_view object, const std::unordered_map<std::string_view, int>& polygon_of,
+    CarriedLabels& labels) const {
+  if (!RawNode::is_object(object)) return;
+  const RawNode installation(object);
+  const std::string_view attributes = installation.value_of("attributes");
+  if (!RawNode::is_object(attributes)) return;
+  auto feature = feature_of(RawNode(attributes));
+  if (!feature) return;
+  for (const std::string_view geometry : detail::elements_of(installation.value_of("geometry"))) {
+    if (!RawNode::is_object(geometry)) continue;
+    for (const std::string_view polygon : shape_of(RawNode(geometry)).text.polygons)
+      if (const auto found = polygon_of.find(polygon); found != polygon_of.end())
+        feature->polygons.push_back(found->second);
+  }
+  std::ranges::sort(feature->polygons);
+  if (!feature->polygons.empty()) add(labels, std::move(*feature));
+}
+
+std::optional<CarriedLabels> CarriedLabelReader::labels_of(std::size_t building) const {
+  if (!state_->objects) return std::nullopt;
+  const detail::GeometryPlace place = state_->document.source->places.at(building);
+  const RawNode object(state_->objects->value(place.object));
+  const std::string_view attributes = object.value_of("attributes");
+  if (!RawNode::is_object(attributes) || !RawNode(attributes).find("oriel_pack"))
+    return std::nullopt;
+  CarriedLabels labels;
+  std::unordered_map<std::string_view, int> polygon_of;
+  const auto read_geometry = [&](detail::GeometryPlace of) {
+    const auto geometries =
+        detail::elements_of(RawNode(state_->objects->value(of.object)).value_of("geometry"));
+    const Shape shape = shape_of(RawNode(geometries.at(of.geometry)));
+    auto number = static_cast<int>(labels.surfaces.size());
+    for (const std::string_view polygon : shape.text.polygons)
+      polygon_of.try_emplace(polygon, number++);
+    read_surfaces(shape, labels);
+  };
+  read_geometry(place);
+  if (const auto& joined = state_->document.source->joined; building < joined.size())
+    for (const detail::GeometryPlace of : joined[building]) read_geometry(of);
+  for (const std::string_view child : detail::elements_of(object.value_of("children"))) {
+    if (!child.starts_with('"')) continue;
+    const auto found = state_->number_of.find(detail::decoded(child));
+    if (found != state_->number_of.end())
+      state_->read_installation(state_->objects->value(found->second), polygon_of, labels);
+  }
+  return labels;
+}
+
+}  // namespace oriel

@@ -1,2 +1,0 @@
-export {default as embed} from 'vega-embed';
-export {expressionInterpreter} from 'vega-interpreter';
