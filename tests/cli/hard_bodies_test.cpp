@@ -191,8 +191,8 @@ TEST_SUITE("cli") {
   TEST_CASE("slow: no command crashes or runs on for the inputs that show faults" *
             doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
     ORIEL_NEEDS_SHARED(shared);
-    // ORIEL_SLOW=2: all commands on all files; CI takes every sixth, of each file others.
-    const std::size_t step = std::atoi(std::getenv("ORIEL_SLOW")) > 1 ? 1 : 6;
+    // ORIEL_SLOW=2: all commands on all files; CI takes every twelfth, of each file others.
+    const std::size_t step = std::atoi(std::getenv("ORIEL_SLOW")) > 1 ? 1 : 12;
     Surroundings around;
     around.cpu_limit_s = kMostSeconds;
     std::size_t files = 0;

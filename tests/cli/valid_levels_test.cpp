@@ -384,19 +384,19 @@ TEST_SUITE("cli") {
   TEST_CASE("slow: what is generalised of the data and of generated houses is valid in the file" *
             doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
     // ORIEL_SLOW=1000 for as many houses, all of the tile and all other files; CI takes fewer
-    // houses, one in 24 buildings of the tile and every eighth file.
+    // houses, one in 48 buildings of the tile and every sixteenth file.
     const int asked = std::atoi(std::getenv("ORIEL_SLOW"));
-    const int houses = std::max(20, asked);
+    const int houses = std::max(10, asked);
     const Folder folder;
     CHECK(check_valid("generated", generated(houses, folder)) >
           static_cast<std::size_t>(6 * houses));
     ORIEL_NEEDS_SHARED(shared);
     const std::string tile = shared / "data/3dbag/tile_5910.city.jsonl";
     std::map<std::string, Names> data{
-        {"3dbag", {folder.write("tile.city.jsonl", every_record(asked > 1 ? 1 : 24, tile))}}};
+        {"3dbag", {folder.write("tile.city.jsonl", every_record(asked > 1 ? 1 : 48, tile))}}};
     std::size_t number = 0;
     for (const std::string& file : city_files(shared))
-      if (file.ends_with(".stripped.city.json") && (asked > 1 || number++ % 8 == 0))
+      if (file.ends_with(".stripped.city.json") && (asked > 1 || number++ % 16 == 0))
         data[std::filesystem::path(file).parent_path().filename()].push_back(file);
     data.erase("ogc-simple-house");  // not valid as it comes
     CHECK(data.size() == 3);
