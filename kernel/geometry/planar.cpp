@@ -170,13 +170,6 @@ bool contains_clearly(std::span<const Outline> outlines, Vec3 normal, Vec3 point
   return contains(outlines, normal, point);
 }
 
-double distance_to_segment(Vec3 point, Vec3 from, Vec3 to) {
-  const Vec3 along = to - from;
-  const double square = dot(along, along);
-  const double t = square > 0 ? std::clamp(dot(point - from, along) / square, 0.0, 1.0) : 0;
-  return length(point - (from + t * along));
-}
-
 bool do_cross(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 normal, double slack_m) {
   const auto side = [&](Vec3 from, Vec3 to, Vec3 of) {
     const double area = dot(cross(to - from, of - from), normal);

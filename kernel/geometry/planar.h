@@ -42,7 +42,12 @@ bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point);
 bool contains_clearly(std::span<const Outline> outlines, Vec3 normal, Vec3 point, double margin_m);
 
 /// How far a point is from a segment.
-double distance_to_segment(Vec3 point, Vec3 from, Vec3 to);
+inline double distance_to_segment(Vec3 point, Vec3 from, Vec3 to) {
+  const Vec3 along = to - from;
+  const double square = dot(along, along);
+  const double t = square > 0 ? std::clamp(dot(point - from, along) / square, 0.0, 1.0) : 0;
+  return length(point - (from + t * along));
+}
 
 /// True if the segments a b and c d cross, seen along the normal, their ends no nearer to the line
 /// of the other one than `slack_m`.
