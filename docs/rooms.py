@@ -11,7 +11,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs" / "rooms.svg"
-ROWS = [["cli", "python"], ["experiments", "studio"], ["oriel"], ["generalise"], ["interpret", "io"], ["kernel"], ["model"], ["kernel/base"]]
+ROWS = [["cli"], ["experiments", "studio", "python"], ["oriel"], ["generalise", ""], ["interpret", "io"], ["kernel"], ["model"], ["kernel/base"]]
 SAYS = {"cli": "the command", "python": "the module", "experiments": "variants, reports", "studio": "page, editing, lsp", "oriel": "the front door",
         "generalise": "operators", "interpret": "rules", "io": "readers, writers", "kernel": "geometry only", "model": "values",
         "kernel/base": "issues, text, work"}
@@ -24,7 +24,7 @@ def room_of(path):
 
 def includes():
     """Returns which rooms each room includes."""
-    found = {room: set() for row in ROWS for room in row}
+    found = {room: set() for row in ROWS for room in row if room}
     for folder in {room.split("/")[0] for room in found}:
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix not in (".h", ".cpp"):
@@ -49,7 +49,9 @@ def drawn(graph):
     middle = {}
     for y, row in enumerate(ROWS):
         for x, room in enumerate(row):
-            middle[room] = (300 + (x - (len(row) - 1) / 2) * COLUMN, 40 + y * ROW)
+            if not room:
+                continue
+            middle[room] = (380 + (x - (len(row) - 1) / 2) * COLUMN, 40 + y * ROW)
     lines = []
     for source in middle:
         for target in sorted(graph[source]):
@@ -60,10 +62,10 @@ def drawn(graph):
     for room, (x, y) in middle.items():
         lines.append(f'<rect x="{x - WIDTH / 2:g}" y="{y - HEIGHT / 2:g}" width="{WIDTH}" height="{HEIGHT}" rx="4"/>')
         lines.append(f'<text x="{x:g}" y="{y - 3:g}" font-weight="bold">{room}</text><text x="{x:g}" y="{y + 14:g}">{SAYS[room]}</text>')
-    head = ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 670" font-family="sans-serif" font-size="13" text-anchor="middle" '
+    head = ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 670" font-family="sans-serif" font-size="13" text-anchor="middle" '
             'stroke="none" role="img"><title>Which room includes which</title>'
             '<defs><marker id="to" viewBox="0 0 8 8" refX="6" refY="4" markerWidth="8" markerHeight="8" orient="auto">'
-            '<path d="M0 0 8 4 0 8z" fill="#555"/></marker></defs><rect width="600" height="670" fill="#fff"/>'
+            '<path d="M0 0 8 4 0 8z" fill="#555"/></marker></defs><rect width="760" height="670" fill="#fff"/>'
             '<style>line{stroke:#555}rect[rx]{fill:#eef3f8;stroke:#555}</style>')
     return "\n".join([head, *lines, "</svg>"]) + "\n"
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// Rules that learn from samples (docs/learn.md): read_samples, join_samples, folds_of,
-/// learn_params, learnt_pack, open_questions, propose, text_with_proposal; and how well variants of
-/// a pack label samples: count_variants.
+/// learn_params, learnt_pack, open_questions, propose, to_yaml; and how well variants of a pack
+/// label samples: count_variants.
 #include "interpret/labelling/corrections.h"  // IWYU pragma: export
 #include "interpret/learn/ask.h"              // IWYU pragma: export
 #include "interpret/learn/count_variants.h"   // IWYU pragma: export
@@ -10,12 +10,12 @@
 #include "interpret/learn/learn_params.h"     // IWYU pragma: export
 #include "interpret/learn/learnt_pack.h"      // IWYU pragma: export
 #include "interpret/learn/objective.h"        // IWYU pragma: export
+#include "interpret/learn/proposal_yaml.h"    // IWYU pragma: export
 #include "interpret/learn/propose.h"          // IWYU pragma: export
 #include "interpret/learn/sample.h"           // IWYU pragma: export
 #include "interpret/pack/rule_base.h"
 #include "io/records/truth.h"
 #include "kernel/base/issue.h"
-#include "studio/editing/proposal_text.h"  // IWYU pragma: export
 
 #include <span>
 #include <string>

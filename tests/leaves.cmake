@@ -1,6 +1,9 @@
 # Tests of the leaves that are built, and, where all are, of the whole command.
 if(ORIEL_EXPERIMENTS)
   oriel_test(experiments oriel::experiments oriel::interpret oriel_generator yaml-cpp nlohmann_json::nlohmann_json)
+  target_sources(test_experiments PRIVATE cli/command.cpp)
+  target_compile_definitions(test_experiments PRIVATE ORIEL_COMMAND="$<TARGET_FILE:oriel>")
+  add_dependencies(test_experiments oriel)
 endif()
 if(ORIEL_STUDIO)
   oriel_test(studio/editing oriel::studio oriel::interpret oriel::kernel)

@@ -1,8 +1,6 @@
 #include "studio/editing/proposal_text.h"
 
-#include "interpret/pack/names.h"
 #include "interpret/pack/read/read_pack.h"
-#include "interpret/yaml/yaml_text.h"
 #include "interpret/yaml/yaml_tree.h"
 #include "kernel/base/index.h"
 #include "studio/editing/edited_pack.h"
@@ -21,116 +19,13 @@ namespace {
 
 using rules::ExprId;
 using rules::Pack;
-using rules::YamlEntry;
+using rules::proposed_rule;
+using rules::read_yaml;
+using rules::rule_with_id;
+using rules::rules_text;
 using rules::YamlNode;
 
 constexpr std::string_view kRulesLine = "rules:\n";
-
-YamlNode scalar_of(std::string text, bool is_plain) {
-  YamlNode node;
-  node.kind = YamlNode::Kind::scalar;
-  node.text = std::move(text);
-  node.is_plain = is_plain;
-  return node;
-}
-
-YamlNode* member_of(YamlNode& map, std::string_view key) {
-  for (YamlEntry& entry : map.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
-/// A condition needs no quotes where nothing in it means something to YAML.
-bool can_be_plain(const std::string& text) {
-  constexpr std::string_view kSpecial = ",[]{}#&*!|>'\"%@`:?\\\n";
-  const auto is_special = [&](char c) {
-    return kSpecial.find(c) != std::string_view::npos && c != '>' && c != '*';
-  };
-  return !text.empty() && std::ranges::none_of(text, is_special) &&
-         std::string_view("<>=*-( ").find(text.front()) == std::string_view::npos;
-}
-
-/// Those that stay keep their quotes and comments.
-std::vector<YamlNode> items_of(YamlNode& list, const std::vector<std::string>& texts,
-                               std::size_t end) {
-  std::vector<YamlNode> before = std::move(list.items);
-  if (list.kind == YamlNode::Kind::scalar) before.push_back(list);
-  std::vector<YamlNode> items;
-  std::size_t begin = list.span.begin;
-  for (const std::string& text : texts) {
-    const auto known = std::ranges::find(before, text, &YamlNode::text);
-    items.push_back(known == before.end() ? scalar_of(text, can_be_plain(text)) : *known);
-    YamlNode& item = items.back();
-    if (known == before.end()) item.span.begin = item.is_plain ? begin : end;
-    begin = item.span.begin;
-  }
-  return items;
-}
-
-/// `end` is where the text ends that the rule was read from.
-void set_list(YamlNode& rule, std::string_view key, const std::vector<std::string>& texts,
-              std::size_t end) {
-  YamlNode* node = member_of(rule, key);
-  if (texts.empty()) {
-    std::erase_if(rule.entries, [&](const YamlEntry& e) { return e.key.text == key; });
-    return;
-  }
-  if (node == nullptr) {
-    rule.entries.push_back({scalar_of(std::string(key), true), {}});
-    rule.entries.back().key.span.begin = end;
-    node = &rule.entries.back().value;
-    node->span.begin = end;
-  }
-  node->items = items_of(*node, texts, end);
-  node->kind = YamlNode::Kind::sequence;
-  node->text.clear();
-}
-
-/// The rule as a proposal has it; its id and `remove: true` if it goes.
-YamlNode rule_of(const Proposal& proposal, const YamlNode* rule, std::size_t end) {
-  YamlNode changed;
-  if (rule == nullptr || proposal.drops_rule) {
-    changed.kind = YamlNode::Kind::map;
-    changed.entries.push_back({scalar_of("id", true), scalar_of(proposal.rule, true)});
-    changed.entries.push_back({scalar_of("remove", true), scalar_of("true", true)});
-    return changed;
-  }
-  changed = *rule;
-  set_list(changed, "require", proposal.require, end);
-  set_list(changed, "unless", proposal.unless, end);
-  YamlNode* score = member_of(changed, "score");
-  if (score == nullptr || proposal.dropped_term < 0) return changed;
-  if (at(proposal.dropped_term) < score->items.size())
-    score->items.erase(score->items.begin() + proposal.dropped_term);
-  if (score->items.empty())
-    std::erase_if(changed.entries, [](const YamlEntry& e) { return e.key.text == "score"; });
-  return changed;
-}
-
-/// `rules:` with that one, in canonical form; with the comments of `text` it was read from.
-std::string rules_text(YamlNode rule, std::string_view text = {}) {
-  YamlNode top, list;
-  top.kind = YamlNode::Kind::map;
-  list.kind = YamlNode::Kind::sequence;
-  list.items.push_back(std::move(rule));
-  top.entries.push_back({scalar_of("rules", true), std::move(list)});
-  return text.empty() ? rules::to_yaml(top) : rules::to_yaml(top, text);
-}
-
-std::optional<YamlNode> parsed(const std::string& text) {
-  const rules::Source source("rule", text);
-  rules::Findings findings(source);
-  return rules::parse_yaml({0, text.size()}, findings);
-}
-
-const YamlNode* rule_with_id(const YamlNode& root, const std::string& id) {
-  const YamlNode* all = rules::find_value(root, "rules");
-  if (all == nullptr) return nullptr;
-  for (const YamlNode& item : all->items)
-    if (const YamlNode* found = rules::find_value(item, "id"); found && found->text == id)
-      return &item;
-  return nullptr;
-}
 
 /// What a rule asks, as texts.
 struct RuleTexts {
@@ -204,11 +99,11 @@ ProposalText changed_in_place(const std::string& text, const YamlNode& rule,
   if (!lines) return {"", "", "the rule shares a line with others: give it lines of its own"};
   const std::string slice =
       std::string(kRulesLine) + text.substr(lines->begin, lines->end - lines->begin);
-  const auto root = parsed(slice);
+  const auto root = read_yaml(slice);
   const YamlNode* own = root ? rule_with_id(*root, proposal.rule) : nullptr;
   if (own == nullptr) return {"", "", "the rule cannot be read alone"};
   ProposalText made;
-  const YamlNode changed = rule_of(proposal, own, slice.size());
+  const YamlNode changed = proposed_rule(proposal, own, slice.size());
   made.yaml = rules_text(changed);
   made.text = text;
   const std::string anew =
@@ -224,7 +119,7 @@ ProposalText changed_in_place(const std::string& text, const YamlNode& rule,
 ProposalText stated_anew(const std::string& text, const YamlNode& tree, const YamlNode& rule,
                          const Proposal& proposal) {
   ProposalText made;
-  made.yaml = rules_text(rule_of(proposal, &rule, 0));
+  made.yaml = rules_text(proposed_rule(proposal, &rule, 0));
   made.text = text;
   if (!made.text.empty() && !made.text.ends_with('\n')) made.text += '\n';
   const YamlNode* all = rules::find_value(tree, "rules");
@@ -256,18 +151,6 @@ std::string fault_of(const ProposalText& made, const std::string& file, const Ru
 }
 
 }  // namespace
-
-std::string to_yaml(const std::vector<Proposal>& proposals, const std::string& merged) {
-  const auto root = parsed(merged);
-  std::string text;
-  for (const Proposal& proposal : proposals) {
-    const YamlNode* rule = root ? rule_with_id(*root, proposal.rule) : nullptr;
-    text += fmt::format("# {}: {:+.4f} on all buildings, {:+.4f} on held-out folds, {} of them\n",
-                        proposal.what, proposal.gain, proposal.held_out_gain, proposal.folds);
-    text += rules_text(rule_of(proposal, rule, 0)) + "\n";
-  }
-  return text;
-}
 
 ProposalText text_with_proposal(const RuleBase& rules, const std::string& text,
                                 const std::string& file, const Proposal& proposal) {

@@ -1,16 +1,11 @@
 #pragma once
 
-#include "interpret/learn/propose.h"
+#include "interpret/learn/proposal_yaml.h"
 #include "interpret/pack/rule_base.h"
 
 #include <string>
-#include <vector>
 
 namespace oriel {
-
-/// The rules of the proposals, each as a list of one that can be put under `rules:` of a pack that
-/// extends the other. `merged` is merge_pack_file() of the pack.
-std::string to_yaml(const std::vector<Proposal>& proposals, const std::string& merged);
 
 /// A pack with a proposal in it.
 struct ProposalText {

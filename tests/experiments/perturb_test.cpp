@@ -1,3 +1,5 @@
+#include "experiments/perturb.h"
+
 #include "oriel/oriel.h"
 #include "tests/cli/command.h"
 #include "tests/support/shapes.h"

@@ -1,5 +1,6 @@
 #include "oriel/stored_samples.h"
 
+#include "experiments/experiment.h"
 #include "oriel/oriel.h"
 #include "tests/cli/command.h"
 

@@ -56,7 +56,6 @@ const std::map<std::string, std::string> kAllowedInStudio{
     {"kernel/base/parallel.h", "shares of the work"},
     {"kernel/base/code.h", "codes of refusals"},
     {"kernel/base/text/counted.h", "counts with the right form of their noun"},
-    {"kernel/base/ids.h", "numbers of features"},
     {"kernel/base/issue.h", "what is reported, with its code"},
     {"kernel/base/sha256.h", "whether a file is still the one that was opened"},
     {"kernel/base/own_fault.h", "what an exception that nobody expects is reported as"},
@@ -65,9 +64,7 @@ const std::map<std::string, std::string> kAllowedInStudio{
     {"io/files/output_file.h", "packs and corrections appear when they are whole"},
     {"model/building.h", "a value"},
     {"model/description/attributes.h", "attributes are listed with unit and meaning"},
-    {"model/interpretation.h", "a value"},
     {"model/polygon_owners.h", "which features a polygon lies in"},
-    {"model/segmentation.h", "a value"},
     {"model/version.h", "the version in `state`"},
 };
 
@@ -135,14 +132,15 @@ bool is_of_the_door(const std::string& header) {
 
 TEST_SUITE("repository") {
   TEST_CASE("no room includes what lies above it") {
-    // Below is below for all: the graph has no cycle.
-    for (const auto& [room, below] : kBelow)
-      for (const std::string& other : below) {
-        CAPTURE(room);
-        CAPTURE(other);
-        CHECK_FALSE(kBelow.at(other).contains(room));
-        CHECK(std::ranges::includes(below, kBelow.at(other)));
-      }
+    // In this order each includes only earlier ones: the graph has no cycle.
+    std::set<std::string> earlier;
+    for (const char* room : {"kernel/base", "model", "kernel", "io", "interpret", "generalise",
+                             "oriel", "experiments", "studio", "cli", "python"}) {
+      CAPTURE(room);
+      CHECK(std::ranges::includes(earlier, kBelow.at(room)));
+      earlier.insert(room);
+    }
+    CHECK(earlier.size() == kBelow.size());
     CHECK_FALSE(is_downward("model/solid.h", "io/reader.h"));
     CHECK_FALSE(is_downward("kernel/base/issue.h", "kernel/segment/segment.h"));
     CHECK_FALSE(is_downward("oriel/label.h", "experiments/experiment.h"));

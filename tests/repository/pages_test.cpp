@@ -126,7 +126,8 @@ TEST_SUITE("repository") {
   TEST_CASE("every test that the page of promises names is there") {
     std::string tests;
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
-      if (entry.path().extension() == ".cpp" || entry.path().filename() == "CMakeLists.txt")
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".cmake" ||
+          entry.path().filename() == "CMakeLists.txt")
         tests += page_text(entry.path());
     // Names that go over several lines of source.
     tests = std::regex_replace(tests, std::regex("\"\\s*\\n\\s*\""), "");

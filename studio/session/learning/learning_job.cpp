@@ -2,6 +2,7 @@
 
 #include "kernel/base/own_fault.h"
 #include "kernel/base/text/counted.h"
+#include "studio/editing/proposal_text.h"
 #include "studio/session/labels/pack_answer.h"
 
 #include <exception>
