@@ -161,9 +161,8 @@ TEST_SUITE("cli") {
             commit.find_first_not_of("0123456789abcdef") == std::string::npos)));
     CHECK(lines[2].starts_with("compiler: "));
     CHECK(lines[3].starts_with("libraries: "));
-    for (const char* library :
-         {"OpenMesh", "CGAL", "Boost", "simdjson", "nlohmann-json", "yaml-cpp", "fmt", "spdlog",
-          "CLI11", "Expat", "oneTBB"}) {
+    for (const char* library : {"OpenMesh", "CGAL", "Boost", "simdjson", "nlohmann-json",
+                                "yaml-cpp", "fmt", "spdlog", "CLI11", "Expat", "oneTBB"}) {
       CAPTURE(library);
       const std::size_t name = lines[3].find(std::string(" ") + library + " ");
       REQUIRE(name != std::string::npos);
