@@ -37,8 +37,8 @@ run() {
   ln -s "$out/$name" here
   timeout 600 "$program" "${@//@/here}" >"$out/$name/stdout" 2>"$out/$name/stderr" </dev/null || code=$?
   echo "$code" >"$out/$name/exit"
-  # The program itself, its memory and where the folder is are no output.
-  sed -i -E '/"(program_sha256|peak_memory_bytes)"/d' "$out/$name"/*.status.json 2>/dev/null || true
+  # The program itself, hashes with its own, its memory and where the folder is are no output.
+  sed -i -E '/"(program_sha256|run_sha256|peak_memory_bytes)"/d' "$out/$name"/*.status.json 2>/dev/null || true
   sed -i "s#$out/##g" "$out/$name/stderr"
 }
 
