@@ -22,14 +22,6 @@ YamlNode scalar_of(std::string text, bool is_plain) {
   return node;
 }
 
-/// The value of a key; null if there is none.
-template <typename Node>
-Node* member_of(Node& map, std::string_view key) {
-  for (auto& entry : map.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
 /// A condition needs no quotes where nothing in it means something to YAML.
 bool can_be_plain(const std::string& text) {
   constexpr std::string_view kSpecial = ",[]{}#&*!|>'\"%@`:?\\\n";
@@ -60,7 +52,7 @@ std::vector<YamlNode> items_of(YamlNode& list, const std::vector<std::string>& t
 /// `end` is where the text ends that the rule was read from.
 void set_list(YamlNode& rule, std::string_view key, const std::vector<std::string>& texts,
               std::size_t end) {
-  YamlNode* node = member_of(rule, key);
+  YamlNode* node = find_value(rule, key);
   if (texts.empty()) {
     std::erase_if(rule.entries, [&](const YamlEntry& e) { return e.key.text == key; });
     return;
@@ -89,7 +81,7 @@ YamlNode proposed_rule(const Proposal& proposal, const YamlNode* rule, std::size
   changed = *rule;
   set_list(changed, "require", proposal.require, end);
   set_list(changed, "unless", proposal.unless, end);
-  YamlNode* score = member_of(changed, "score");
+  YamlNode* score = find_value(changed, "score");
   if (score == nullptr || proposal.dropped_term < 0) return changed;
   if (at(proposal.dropped_term) < score->items.size())
     score->items.erase(score->items.begin() + proposal.dropped_term);
@@ -114,10 +106,10 @@ std::optional<YamlNode> read_yaml(const std::string& text) {
 }
 
 const YamlNode* rule_with_id(const YamlNode& root, const std::string& id) {
-  const YamlNode* all = member_of(root, "rules");
+  const YamlNode* all = find_value(root, "rules");
   if (all == nullptr) return nullptr;
   for (const YamlNode& item : all->items)
-    if (const YamlNode* found = member_of(item, "id"); found && found->text == id) return &item;
+    if (const YamlNode* found = find_value(item, "id"); found && found->text == id) return &item;
   return nullptr;
 }
 

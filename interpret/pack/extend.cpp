@@ -13,16 +13,6 @@ namespace oriel::rules {
 
 namespace {
 
-YamlNode* find(YamlNode& map, std::string_view key) {
-  for (YamlEntry& entry : map.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
-const YamlNode* find(const YamlNode& map, std::string_view key) {
-  return find(const_cast<YamlNode&>(map), key);
-}
-
 /// Entries of `over` replace those of the same key, or with `levels` left are put over them.
 void put_over(YamlNode& base, YamlNode over, int levels) {
   if (base.kind != YamlNode::Kind::map || over.kind != YamlNode::Kind::map) {
@@ -30,7 +20,7 @@ void put_over(YamlNode& base, YamlNode over, int levels) {
     return;
   }
   for (YamlEntry& entry : over.entries) {
-    YamlNode* beneath = find(base, entry.key.text);
+    YamlNode* beneath = find_value(base, entry.key.text);
     if (beneath == nullptr)
       base.entries.push_back(std::move(entry));
     else if (levels > 1)
@@ -41,7 +31,7 @@ void put_over(YamlNode& base, YamlNode over, int levels) {
 }
 
 bool is_removal(const YamlNode& item) {
-  const YamlNode* remove = find(item, "remove");
+  const YamlNode* remove = find_value(item, "remove");
   return remove != nullptr && remove->is_plain && remove->text == "true";
 }
 
@@ -52,7 +42,7 @@ class ListMerge {
       : base_(&base), findings_(&findings), is_replaced_(base.items.size(), false) {}
 
   void put(YamlNode item) {
-    const YamlNode* id = find(item, "id");
+    const YamlNode* id = find_value(item, "id");
     const auto beneath = id == nullptr ? npos : find_beneath(id->text);
     if (!is_removal(item)) {
       if (beneath == npos)
@@ -79,7 +69,7 @@ class ListMerge {
   /// An id that stands twice above must not hide itself: it replaces once.
   [[nodiscard]] std::size_t find_beneath(std::string_view id) const {
     for (std::size_t i = 0; i < is_replaced_.size(); ++i) {
-      const YamlNode* other = find(base_->items[i], "id");
+      const YamlNode* other = find_value(base_->items[i], "id");
       if (other != nullptr && other->text == id) return is_replaced_[i] ? npos : i;
     }
     return npos;
@@ -111,7 +101,7 @@ void put_section(std::string_view key, YamlNode& base, YamlNode over, Findings& 
 YamlNode merged(YamlNode base, YamlNode over, Findings& findings) {
   base.span = over.span;
   for (YamlEntry& entry : over.entries) {
-    YamlNode* beneath = find(base, entry.key.text);
+    YamlNode* beneath = find_value(base, entry.key.text);
     if (beneath == nullptr)
       base.entries.push_back(std::move(entry));
     else

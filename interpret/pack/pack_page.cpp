@@ -18,14 +18,8 @@ namespace oriel::rules {
 
 namespace {
 
-const YamlNode* value_of(const YamlNode& map, std::string_view key) {
-  for (const YamlEntry& entry : map.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
 std::string scalar_at(const YamlNode& map, std::string_view key) {
-  const YamlNode* value = value_of(map, key);
+  const YamlNode* value = find_value(map, key);
   return value == nullptr ? "" : value->text;
 }
 
@@ -92,7 +86,7 @@ class PackPageWriter {
  private:
   static std::map<std::string, std::string> values_of_params(const YamlNode& tree) {
     std::map<std::string, std::string> values;
-    if (const YamlNode* params = value_of(tree, "params"))
+    if (const YamlNode* params = find_value(tree, "params"))
       for (const YamlEntry& param : params->entries)
         values[param.key.text] = scalar_at(param.value, "value");
     return values;
@@ -105,7 +99,7 @@ class PackPageWriter {
 
   /// The section of the pack, with a heading, if it is there and not empty.
   const YamlNode* section(std::string_view key, std::string_view title) {
-    const YamlNode* node = value_of(*tree_, key);
+    const YamlNode* node = find_value(*tree_, key);
     if (node == nullptr || (node->items.empty() && node->entries.empty())) return nullptr;
     line("\n## {}\n", title);
     return node;
@@ -242,7 +236,7 @@ void PackPageWriter::write_relations() {
   const YamlNode* relations = section("relations", "Relations");
   if (relations == nullptr) return;
   for (const YamlEntry& entry : relations->entries) {
-    const YamlNode& where = *value_of(entry.value, "where");
+    const YamlNode& where = *find_value(entry.value, "where");
     const auto syntax = parse_expression(where.span, *findings_);
     line("- **{}**: pairs of `{}` for which {}", entry.key.text, scalar_at(entry.value, "within"),
          syntax ? words_.pair_condition(*syntax) : where.text);
@@ -260,19 +254,19 @@ void PackPageWriter::write_rules() {
 
 void PackPageWriter::write_rule(const YamlNode& rule) {
   line("### {}\n", scalar_at(rule, "id"));
-  const YamlNode& require = *value_of(rule, "require");
+  const YamlNode& require = *find_value(rule, "require");
   const bool is_one = require.kind != YamlNode::Kind::sequence || require.items.size() == 1;
   line("A feature is {} if {}:\n", with_article(scalar_at(rule, "label"), "**"),
        is_one ? "this holds" : "all of this holds");
   list_conditions(require);
-  const YamlNode* unless = value_of(rule, "unless");
+  const YamlNode* unless = find_value(rule, "unless");
   if (unless != nullptr && (unless->kind != YamlNode::Kind::sequence || !unless->items.empty())) {
     line("\nunless one of these holds:\n");
     list_conditions(*unless);
   }
   const std::string priority = scalar_at(rule, "priority");
   if (!priority.empty()) line("\nPriority {}: the highest that holds decides.", priority);
-  if (const YamlNode* score = value_of(rule, "score")) write_score(*score);
+  if (const YamlNode* score = find_value(rule, "score")) write_score(*score);
 }
 
 void PackPageWriter::write_score(const YamlNode& score) {
@@ -287,7 +281,7 @@ std::string PackPageWriter::term(const YamlNode& node) const {
   const YamlEntry& entry = node.entries.front();
   std::string text;
   const auto add_ramp = [&](const char* key, const char* format_low, const char* format_high) {
-    const YamlNode* ramp = value_of(entry.value, key);
+    const YamlNode* ramp = find_value(entry.value, key);
     const auto range = ramp == nullptr ? std::nullopt : parse_range(ramp->span, *findings_);
     if (!range) return;
     text += fmt::format("{}{} {}, {} {}", text.empty() ? "" : "; ", format_low,
@@ -316,7 +310,7 @@ void PackPageWriter::write_decisions() {
   const YamlNode* decide = section("decide", "Decisions");
   if (decide != nullptr) {
     const auto value_at = [&](std::string_view key) {
-      const YamlNode* node = value_of(*decide, key);
+      const YamlNode* node = find_value(*decide, key);
       return node == nullptr ? "" : value(*node);
     };
     const std::string least = value_at("min_score");
@@ -349,7 +343,7 @@ void PackPageWriter::write_surfaces() {
   line("The first that holds decides what a polygon is.\n");
   for (const YamlNode& item : surfaces->items)
     line("- **{}**: `{}` if {}", scalar_at(item, "id"), scalar_at(item, "type"),
-         conditions(*value_of(item, "when"), "and"));
+         conditions(*find_value(item, "when"), "and"));
 }
 
 /// "`enlarge` to 0.5 mm on the map, anchor sill".
@@ -373,7 +367,7 @@ std::string PackPageWriter::operation(const YamlNode& node) {
 
 /// ", together with what `decor` leads to and has no label".
 std::string PackPageWriter::along(const YamlNode& entry) {
-  const YamlNode* with = value_of(entry, "with");
+  const YamlNode* with = find_value(entry, "with");
   if (with == nullptr) return {};
   const std::string of = scalar_at(*with, "of");
   const std::string as = scalar_at(*with, "as");
@@ -395,11 +389,11 @@ void PackPageWriter::write_generalise() {
                              : target.starts_with(kGroup)
                                  ? fmt::format("each `{}`", target.substr(kGroup.size()))
                                  : with_article(target);
-    const YamlNode* when = value_of(entry, "when");
+    const YamlNode* when = find_value(entry, "when");
     line("- **{}** ({}): {}{}: {}", scalar_at(entry, "id"),
          scales_in_words(scalar_at(entry, "scale")), what,
          when == nullptr ? "" : " if " + condition(*when),
-         operation(*value_of(entry, "do")) + along(entry));
+         operation(*find_value(entry, "do")) + along(entry));
   }
   page_ += '\n';
   for (const auto& [name, meaning] : operations_) line("`{}` {}.  ", name, meaning);

@@ -346,8 +346,7 @@ YamlSection::YamlSection(const YamlNode& node, std::string what,
 }
 
 const YamlNode* YamlSection::find(std::string_view key) const {
-  for (const YamlEntry& entry : node_->entries)
-    if (entry.key.text == key) return &entry.value;
+  if (const YamlNode* value = find_value(*node_, key)) return value;
   const auto meant = std::ranges::find(meant_, key, &Meant::first);
   return meant == meant_.end() ? nullptr : meant->second;
 }

@@ -216,7 +216,18 @@ void report(SourceSpan where, Findings& findings, const YAML::Exception& problem
                    "not YAML: " + problem.msg + "; the fault is here or on the lines before");
 }
 
+template <typename Node>
+Node* value_in(Node& map, std::string_view key) {
+  for (auto& entry : map.entries)
+    if (entry.key.text == key) return &entry.value;
+  return nullptr;
+}
+
 }  // namespace
+
+YamlNode* find_value(YamlNode& map, std::string_view key) { return value_in(map, key); }
+
+const YamlNode* find_value(const YamlNode& map, std::string_view key) { return value_in(map, key); }
 
 std::size_t find_closing_quote(std::string_view text, std::size_t begin) {
   const char quote = text[begin];

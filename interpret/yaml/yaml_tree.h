@@ -40,6 +40,10 @@ struct YamlEntry {
   YamlNode value;
 };
 
+/// Finds the value of a key of a map; null if there is none.
+YamlNode* find_value(YamlNode& map, std::string_view key);
+const YamlNode* find_value(const YamlNode& map, std::string_view key);
+
 /// The one document at `where` in the text of `findings.source()`, or nothing and an error: R201
 /// for what is no YAML, R203 for anchors, aliases, tags and further documents, R211 for a key that
 /// is no text, R213 for a text beyond the limits above. A repeated key is an error R202 and both

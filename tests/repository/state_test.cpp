@@ -24,7 +24,6 @@ const std::map<std::string, std::string> kKeepers{
 /// Objects that change though they are constant, and why no two threads have one.
 const std::map<std::string, std::string> kChangesWithin{
     {"interpret/learn/learning_set.h", "behind a lock"},
-    {"interpret/pack/extend.cpp", "given back as constant as it came"},
     {"interpret/relabelling/relabelling.cpp", "of one call"},
     {"interpret/yaml/yaml_tree.cpp", "of a library that only reads"},
     {"kernel/describe/features/parallel_polygons.h", "of one building"},

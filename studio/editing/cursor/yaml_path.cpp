@@ -124,12 +124,6 @@ void visit_yaml(const YamlNode& root, const YamlVisitor& visit) {
   visit_below(root, path, visit);
 }
 
-const YamlNode* find_value(const YamlNode& map, std::string_view key) {
-  for (const YamlEntry& entry : map.entries)
-    if (entry.key.text == key) return &entry.value;
-  return nullptr;
-}
-
 YamlPlace place_of(const YamlPath& path, bool is_key) {
   return is_key ? first_match(kKeyPlaces, path) : first_match(kValuePlaces, path);
 }

@@ -24,9 +24,6 @@ using YamlPath = std::vector<YamlStep>;
 using YamlVisitor = std::function<void(const YamlNode&, const YamlPath&, bool is_key)>;
 void visit_yaml(const YamlNode& root, const YamlVisitor& visit);
 
-/// The value of `key`, or null.
-const YamlNode* find_value(const YamlNode& map, std::string_view key);
-
 /// What stands in a pack, or in the tests of one, at the end of a path.
 enum class YamlPlace {
   other,
