@@ -6,6 +6,8 @@
 #include "kernel/base/ids.h"
 #include "model/building.h"
 #include "model/description/feature_names.h"  // IWYU pragma: export
+#include "model/interpretation.h"
+#include "model/segmentation.h"
 #include "oriel/result.h"
 
 #include <cstddef>
@@ -67,5 +69,21 @@ std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point);
 
 /// The smallest feature with a label that the polygon lies in, else the smallest; invalid: none.
 FeatureId feature_of(const Building& building, const PipelineResult& result, std::size_t polygon);
+
+/// Returns what a feature is to the building, in a word: "protrusion", "hole", "cavity", and
+/// "panel" of an imprint, a flat outline.
+std::string_view kind_word(Sense sense);
+
+/// Describes a feature in one plain sentence, from its attributes: "window: a 1.1 × 1.4 m hole in a
+/// wall, 0.9 m above the ground, one of a row of four". What is not known is left out. `result` is
+/// of the building's segmentation, `interpretation` what a pack said of it.
+std::string plain_sentence(const PipelineResult& result, const Interpretation& interpretation,
+                           FeatureId feature);
+
+/// Finds where storeys begin, in metres over the origin of the building's frame, from below: the
+/// foot of the building, then half-way between the openings of a storey and those of the next one.
+/// Empty for a building that has no openings in storeys, or was not segmented. Only cuts through a
+/// picture are made by it.
+std::vector<double> storey_floors(const Building& building, const PipelineResult& result);
 
 }  // namespace oriel

@@ -15,7 +15,6 @@
 #include "oriel/neighbours.h"      // IWYU pragma: export
 #include "oriel/options.h"         // IWYU pragma: export
 #include "oriel/paper_count.h"     // IWYU pragma: export
-#include "oriel/plain_sentence.h"  // IWYU pragma: export
 #include "oriel/read.h"            // IWYU pragma: export
 #include "oriel/repair.h"          // IWYU pragma: export
 #include "oriel/result.h"          // IWYU pragma: export
@@ -25,7 +24,6 @@
 #include "oriel/series.h"          // IWYU pragma: export
 #include "oriel/stage.h"           // IWYU pragma: export
 #include "oriel/stored_samples.h"  // IWYU pragma: export
-#include "oriel/storeys.h"         // IWYU pragma: export
 #include "oriel/tiles.h"           // IWYU pragma: export
 #include "oriel/validate.h"        // IWYU pragma: export
 #include "oriel/write.h"           // IWYU pragma: export

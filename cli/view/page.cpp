@@ -3,9 +3,7 @@
 #include "model/polygon_owners.h"
 #include "model/version.h"
 #include "oriel/explain.h"
-#include "oriel/plain_sentence.h"
 #include "oriel/rules.h"
-#include "oriel/storeys.h"
 #include "studio/server/page_files.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "oriel/plain_sentence.h"
+#include "oriel/explain.h"
 
 #include <algorithm>
 #include <array>

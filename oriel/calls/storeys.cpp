@@ -1,7 +1,6 @@
-#include "oriel/storeys.h"
-
 #include "model/description/attributes.h"
 #include "model/segmentation.h"
+#include "oriel/explain.h"
 
 #include <algorithm>
 #include <cstddef>

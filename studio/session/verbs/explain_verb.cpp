@@ -1,6 +1,5 @@
 #include "model/description/attributes.h"
 #include "oriel/explain.h"
-#include "oriel/plain_sentence.h"
 #include "oriel/rules.h"
 #include "studio/session/desk.h"
 #include "studio/session/labels/pack_answer.h"

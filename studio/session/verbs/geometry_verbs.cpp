@@ -1,8 +1,6 @@
 #include "model/version.h"
 #include "oriel/explain.h"
 #include "oriel/generalise.h"
-#include "oriel/plain_sentence.h"
-#include "oriel/storeys.h"
 #include "studio/session/desk.h"
 #include "studio/session/geometry_json.h"
 #include "studio/session/labels/pack_answer.h"

@@ -1,5 +1,5 @@
+#include "oriel/explain.h"
 #include "oriel/learn.h"
-#include "oriel/plain_sentence.h"
 #include "studio/session/desk.h"
 
 #include <algorithm>
