@@ -58,7 +58,7 @@ const std::vector<Case>& cases() {
       {"crash/empty-outer-ring-unassigned.city.jsonl", {0, 0, 3, 3, 0, 3, 3, 0, 3}, "E201", "E311"},
       {"crash/empty-outer-ring-in-stream.city.jsonl", {0, 0, 3, 3, 0, 3, 3, 0, 3}, "E201", "E311"},
       {"bounds/overlapping-boxes.city.jsonl", {0, 0, 3, 3, 0, 3, 3, 0, 0}, "E305", ""},
-      {"bounds/mesh-5k.city.json", {0, 0, 0, kSlow, kSlow, kSlow, 0, kSlow, 0}, "", ""},
+      {"bounds/mesh-5k.city.json", {0, 0, 0, kSlow, kSlow, kSlow, 0, 0, 0}, "", ""},
       {"geometry/installation-folded.city.json", {0, 0, 3, 3, 0, 0, 3, 0, 3}, "", "E345"},
       {"geometry/vertices-one-unit-apart.city.jsonl", {0, 0, 0, 0, 0, 0, 0, 0, 3}, "E309", "E312"},
       {"families/second-geometry-invalid.city.json", {0, 0, 3, 0, 0, 0, 3, 0, 3}, "E215", "E344"},
