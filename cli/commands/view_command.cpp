@@ -4,13 +4,15 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
-#include "cli/view/page.h"
 #include "io/cityjson/carried_labels.h"
 #include "io/files/output_file.h"
+#include "studio/server/page_files.h"
+#include "studio/session/recording.h"
 
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -36,11 +38,10 @@ struct ViewArguments : RunOptions, RulesChoice {
   throw InputError(std::move(issue));
 }
 
-/// The buildings of a run as a further model of the page, their ids appended to `ids`. With
-/// `is_after` those that carry labels of oriel have these.
-ExitCode add_model(const RunOptions& arguments, const RuleBase& rules, Report& report,
-                   PageData& page, std::vector<std::string>& ids, bool is_after) {
-  page.begin_model(fmt::format("{}", fmt::join(arguments.inputs, ", ")));
+/// Records the buildings of a run, their ids appended to `ids`. With `is_after` they are what
+/// became of those before, and have the labels of oriel that they carry.
+ExitCode record(const RunOptions& arguments, const RuleBase& rules, Report& report,
+                studio::Recording& recording, std::vector<std::string>& ids, bool is_after) {
   BatchRunner runner(arguments, &rules, report);
   std::map<std::string, int> counts;
   RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
@@ -50,12 +51,14 @@ ExitCode add_model(const RunOptions& arguments, const RuleBase& rules, Report& r
       if (lines[i].is_passed_over) continue;
       const auto carried = is_after ? reader.labels_of(i) : std::nullopt;
       if (carried) {
-        page.add(document.buildings[i], lines[i], *carried);
         for (const CarriedFeature& feature : carried->features) ++counts[feature.label];
       } else {
-        page.add(document.buildings[i], lines[i]);
         for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
       }
+      if (is_after)
+        recording.add_after(document.buildings[i], lines[i], carried ? &*carried : nullptr);
+      else
+        recording.add(document.buildings[i], lines[i]);
       ids.push_back(document.buildings[i].id);
     }
   });
@@ -99,6 +102,16 @@ void check_page_name(const std::string& path) {
       fmt::format("an HTML page is written, and '{}' ends in {}: end it in .html", path, ending));
 }
 
+/// One HTML file that shows a recording and loads nothing: the page of the studio without its
+/// editor.
+std::string page_of(const studio::Recording& recording) {
+  static constexpr std::string_view kMark = "{{data}}";
+  const std::string_view page = studio::page_file("view.html");
+  const std::size_t at = page.find(kMark);
+  std::string whole(page.substr(0, at));
+  return whole.append(recording.json()).append(page.substr(at + kMark.size()));
+}
+
 ExitCode work(ViewArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
@@ -107,18 +120,19 @@ ExitCode work(ViewArguments& arguments) {
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   find_neighbours(arguments, report);
-  PageData page(*rules);
+  studio::Recording recording(*rules);
   std::vector<std::string> ids;
-  ExitCode code = add_model(arguments, *rules, report, page, ids, false);
-  if (page.buildings() == 0) {
+  ExitCode code = record(arguments, *rules, report, recording, ids, false);
+  if (ids.empty()) {
     if (code == ExitCode::input) return code;
     refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
   }
   const std::size_t shown = ids.size();
   if (!arguments.after.empty()) {
     std::vector<std::string> found;
+    recording.begin_after();
     const ExitCode second =
-        add_model(arguments_after(arguments, std::move(ids)), *rules, report, page, found, true);
+        record(arguments_after(arguments, std::move(ids)), *rules, report, recording, found, true);
     if (found.empty() && second == ExitCode::input) return second;
     if (found.empty())
       refuse(Code::E128, arguments.after, "has none of the buildings that are shown");
@@ -129,7 +143,7 @@ ExitCode work(ViewArguments& arguments) {
         "{} buildings are many for one page, which opens slowly; `oriel studio {}` shows them from "
         "a local server",
         shown, fmt::join(arguments.inputs, " "));
-  write_file(arguments.out, page_of(page.json()));
+  write_file(arguments.out, page_of(recording));
   return code;
 }
 

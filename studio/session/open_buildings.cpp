@@ -36,7 +36,8 @@ PipelineResult segment_or_pass(const Building& building, const PipelineOptions& 
   return passed_over;
 }
 
-/// Finds which polygons are whose, and where features are.
+}  // namespace
+
 void place_features(OpenBuilding& open) {
   static const Segmentation none;
   PipelineResult& result = open.segmented;
@@ -48,8 +49,6 @@ void place_features(OpenBuilding& open) {
     result.description = {};
   }
 }
-
-}  // namespace
 
 OpenBuildings::OpenBuildings(const SessionOptions& options)
     : options_(options), files_left_(options.files.size()), thread_([this] { run(); }) {}

@@ -41,6 +41,9 @@ struct OpenBuilding : BuildingOfFile {
   std::optional<std::vector<ExpectedObject>> truth;
 };
 
+/// Fills `owners` and `features`, from `segmented`.
+void place_features(OpenBuilding& open);
+
 /// The buildings by their number; null while one is not segmented yet.
 using BuildingList = std::vector<std::shared_ptr<const OpenBuilding>>;
 

@@ -3,11 +3,11 @@
 #include "examples/generator/output/cityjson.h"
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
+#include "tests/studio/session/recorded_page.h"
 
 #include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -28,12 +28,12 @@ std::vector<std::string> ids_of(const std::string& name, const std::string& labe
   return ids;
 }
 
-/// The data in a page that view has written.
+/// The replies in a page that view has written.
 json page_data(const std::string& path) {
   const std::string page = bytes_of(path);
   const std::string mark = "<script type=\"application/json\" id=\"data\">";
   const std::size_t begin = page.find(mark) + mark.size();
-  return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  return replies_of(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
 }  // namespace
@@ -194,7 +194,7 @@ TEST_SUITE("cli") {
     std::set<std::string> once;
     for (const auto& [id, name] : names) CHECK(once.insert(name).second);
     const json shown = page_data(page);
-    for (const json& feature : shown["models"][0]["buildings"][0]["features"])
+    for (const json& feature : shown["buildings"][0]["features"])
       CHECK(feature["name"] == names[feature["id"]]);
     std::size_t written = 0;
     const json city = json::parse(bytes_of(labelled));
@@ -332,32 +332,34 @@ TEST_SUITE("cli") {
     const Folder folder;
     REQUIRE(run({"view", sample("house-utm"), "-o", folder / "page.html"}).exit == 0);
     const json data = page_data(folder / "page.html");
-    const json& building = data["models"][0]["buildings"][0];
+    const json& building = data["buildings"][0];
+    const RecordedShape shape = shape_of(building["geometry"]);
     std::size_t of_features = 0, of_surfaces = 0;
     std::string of_surface;
-    for (std::size_t i = 0; i < building["polygons"].size(); i += 9) {
-      const json& polygon = building["polygons"][i];
-      if (polygon["rings"].size() > 1 || polygon["rings"][0].size() > 4) continue;
+    for (std::size_t i = 0; i < shape.polygons.size(); i += 9) {
+      const RecordedPolygon& polygon = shape.polygons[i];
+      if (polygon.rings.size() > 1 || polygon.rings[0].size() > 4) continue;
       std::string place;
       for (int axis = 0; axis < 3; ++axis) {
         double sum = 0;
-        for (const int corner : polygon["rings"][0])
-          sum += building["vertices_mm"][static_cast<std::size_t>(3 * corner + axis)].get<double>();
-        sum /= 1000 * static_cast<double>(polygon["rings"][0].size());
-        const double metres = data["origin_m"][static_cast<std::size_t>(axis)].get<double>() + sum;
+        for (const std::size_t corner : polygon.rings[0])
+          sum += shape.vertices_mm[3 * corner + static_cast<std::size_t>(axis)];
+        sum /= 1000 * static_cast<double>(polygon.rings[0].size());
+        const double metres =
+            data["state"]["origin_m"][static_cast<std::size_t>(axis)].get<double>() + sum;
         place += (axis == 0 ? "" : ",") + fmt::format("{:.3f}", metres);
       }
       const Outcome outcome = run({"explain", sample("house-utm"), "--at", place});
       CAPTURE(place);
       CHECK(outcome.exit == 0);
       std::string feature;
-      for (const std::size_t owner : polygon["owners"]) {
-        const json& candidate = building["features"][owner];
-        if (feature.empty() || candidate["label"] != "") feature = candidate["id"];
-        if (candidate["label"] != "") break;
+      for (const std::size_t owner : polygon.owners) {
+        const bool is_known = !building["explain"][owner]["label"].is_null();
+        if (feature.empty() || is_known) feature = building["features"][owner]["id"];
+        if (is_known) break;
       }
       (feature.empty() ? of_surfaces : of_features) += 1;
-      const std::string number = std::to_string(polygon["source"].get<int>());
+      const std::string number = std::to_string(i);
       const Outcome same = feature.empty()
                                ? run({"explain", sample("house-utm"), "--surface", number})
                                : run({"explain", sample("house-utm"), feature});
@@ -459,60 +461,56 @@ TEST_SUITE("cli") {
     CHECK(outcome.exit == 0);
     CHECK(outcome.says("1 of 1 building shown: 1 balcony, 1 canopy, 1 chimney, 2 door"));
     const json data = page_data(folder / "page.html");
-    REQUIRE(data["models"].size() == 1);
-    const json& building = data["models"][0]["buildings"][0];
-    CHECK(building["id"] == "house");
-    CHECK(building["features"].size() == 53);
-    CHECK(building["storeys_mm"].size() >= 2);
+    CHECK(data["after"].is_null());
+    CHECK(data["state"]["buildings"][0]["id"] == "house");
+    const json& building = data["buildings"][0];
+    REQUIRE(building["features"].size() == 53);
+    CHECK(building["explain"].size() == 53);
+    CHECK(data["pack"]["labels"]["0"].size() == 53);
+    CHECK(shape_of(building["geometry"]).storeys_mm.size() >= 2);
     CHECK(bytes_of(folder / "page.html").size() <= 1'000'000);
     for (const std::size_t number : {0, 20, 40}) {
-      const json& feature = building["features"][number];
-      const std::string id = feature["id"];
+      const json& reply = building["explain"][number];
+      const std::string id = building["features"][number]["id"];
       const Outcome explained = run({"explain", sample("house"), id, "--full"});
-      CHECK(explained.out.starts_with(feature["head"].get<std::string>() + "\n"));
-      const std::string label = feature["label"].get<std::string>();
-      CHECK(feature["sentence"].get<std::string>().starts_with((label.empty() ? "unknown" : label) +
-                                                               ": a"));
-      for (const json& relation : feature["relations"])
-        for (const std::size_t other : relation[1]) CHECK(other < building["features"].size());
-      std::istringstream rest(explained.out);
-      std::string line;
-      std::getline(rest, line);
-      for (const json& rule : feature["rules"])
-        for (const int row : rule) {
-          REQUIRE(std::getline(rest, line));
-          for (std::size_t cell = 1; cell < 5; ++cell) {
-            const std::string text = data["strings"][data["rows"][row][cell].get<std::size_t>()];
-            CHECK(line.find(text) != std::string::npos);
-          }
-        }
+      CHECK(explained.out.starts_with(reply["head"].get<std::string>() + "\n"));
+      const std::string label = reply["label"].is_null() ? "unknown" : reply["label"];
+      CHECK(reply["sentence"].get<std::string>().starts_with(label + ": a"));
+      for (const json& relation : reply["relations"])
+        for (const std::size_t other : relation["features"])
+          CHECK(other < building["features"].size());
+      const json said = json::parse(run({"explain", sample("house"), id, "--json"}).out);
+      CHECK(reply["why"].size() == said["rules"].size());
+      for (const json& rule : reply["why"]) {
+        CHECK(explained.out.find(rule["place"].get<std::string>() + "\n") != std::string::npos);
+        for (const json& condition : rule["conditions"])
+          for (const char* cell : {"found", "asked"})
+            CHECK(explained.out.find(condition[cell].get<std::string>()) != std::string::npos);
+      }
       // Flips are searched for one feature at a time.
-      CHECK(std::getline(rest, line));
-      CHECK(line.starts_with("  nearest flip: "));
-      CHECK(!std::getline(rest, line));
+      CHECK(reply["flip"].is_null());
     }
   }
 
   TEST_CASE("every polygon of a page has its corners and says what surface it is and why") {
     const Folder folder;
     REQUIRE(run({"view", sample("house"), "-o", folder / "page.html"}).exit == 0);
-    const json data = page_data(folder / "page.html");
-    const json& building = data["models"][0]["buildings"][0];
-    const std::size_t corners = building["vertices_mm"].size() / 3;
+    const json building = page_data(folder / "page.html")["buildings"][0];
+    const RecordedShape shape = shape_of(building["geometry"]);
+    const json &types = building["surfaces"]["types"], &reasons = building["surfaces"]["why"];
+    REQUIRE(types.size() == shape.polygons.size());
     std::size_t owned = 0;
-    for (const json& polygon : building["polygons"]) {
-      for (const json& ring : polygon["rings"])
-        for (const std::size_t corner : ring) CHECK(corner < corners);
-      for (const std::size_t owner : polygon["owners"]) CHECK(owner < building["features"].size());
-      owned += polygon["owners"].empty() ? 0 : 1;
-      std::string why;
-      for (const std::size_t line : polygon["why"])
-        why += data["strings"][line].get<std::string>() + "\n";
-      const std::string number = std::to_string(polygon["source"].get<int>());
-      if (polygon["source"].get<int>() % 40 == 0)
+    for (std::size_t i = 0; i < shape.polygons.size(); ++i) {
+      for (const auto& ring : shape.polygons[i].rings)
+        for (const std::size_t corner : ring) CHECK(3 * corner < shape.vertices_mm.size());
+      for (const std::size_t owner : shape.polygons[i].owners)
+        CHECK(owner < building["features"].size());
+      owned += shape.polygons[i].owners.empty() ? 0 : 1;
+      const std::string why = reasons.at(i), number = std::to_string(i);
+      if (i % 40 == 0)
         CHECK(run({"explain", sample("house"), "--surface", number}).out ==
               "house: polygon " + number + " is " + why);
-      CHECK(why.starts_with(polygon["surface"].get<std::string>() + " by "));
+      CHECK(why.starts_with(types[i].get<std::string>() + " by "));
     }
     CHECK(owned > 100);
   }
@@ -541,35 +539,42 @@ TEST_SUITE("cli") {
     REQUIRE(run({"generalise", sample("house"), "--scale", "1:2500", "-o", small}).exit == 0);
     REQUIRE(run({"view", sample("house"), "--after", small, "-o", folder / "page.html"}).exit == 0);
     const json data = page_data(folder / "page.html");
-    REQUIRE(data["models"].size() == 2);
-    const auto windows = [](const json& model) {
+    REQUIRE(data["after"].size() == 1);
+    const json& after = data["after"][0];
+    const json& features = data["buildings"][0]["features"];
+    const auto windows = [&](const json& labels) {
       std::size_t count = 0;
-      for (const json& feature : model["buildings"][0]["features"])
-        count += feature["label"] == "window" ? 1 : 0;
+      for (const int label : labels)
+        count += label >= 0 && data["pack"]["classes"].at(
+                                   static_cast<std::size_t>(label))["name"] == "window"
+                     ? 1
+                     : 0;
       return count;
     };
-    CHECK(windows(data["models"][0]) == 16);
-    // As the file says: one was left, with the id, rule and reasons that it had before.
-    CHECK(windows(data["models"][1]) == 1);
-    const json& before = data["models"][0]["buildings"][0]["features"];
-    const json& after = data["models"][1]["buildings"][0];
+    CHECK(windows(data["pack"]["labels"]["0"]) == 16);
+    // The file says nothing of what is gone: the picture has no polygon of it.
+    CHECK(features.size() == 53);
+    CHECK(after["labels"] == data["pack"]["labels"]["0"]);
+    std::set<std::size_t> seen;
     std::size_t owned = 0;
-    for (const json& feature : after["features"]) {
-      const auto same =
-          std::ranges::find_if(before, [&](const json& f) { return f["id"] == feature["id"]; });
-      REQUIRE(same != before.end());
-      CHECK((*same)["label"] == feature["label"]);
-      CHECK((*same)["rules"] == feature["rules"]);
-      CHECK(feature["head"].get<std::string>().ends_with(", as the file says"));
+    const RecordedShape shape = shape_of(after["geometry"]);
+    CHECK(after["types"].size() == shape.polygons.size());
+    for (const RecordedPolygon& polygon : shape.polygons) {
+      owned += polygon.owners.empty() ? 0 : 1;
+      seen.insert(polygon.owners.begin(), polygon.owners.end());
     }
-    for (const json& polygon : after["polygons"]) owned += polygon["owners"].empty() ? 0 : 1;
-    CHECK(after["features"].size() == 6);
+    CHECK(seen.size() == 6);
+    json left = json::array();
+    for (const std::size_t feature : seen) left.push_back(after["labels"].at(feature));
+    CHECK(windows(left) == 1);
     CHECK(owned > 20);
     // A file without labels of oriel is labelled as it is.
     REQUIRE(run({"view", sample("house"), "--after", sample("house"), "-o", folder / "page.html"})
                 .exit == 0);
-    const json same = page_data(folder / "page.html")["models"];
-    CHECK(same[0]["buildings"] == same[1]["buildings"]);
+    const json same = page_data(folder / "page.html");
+    CHECK(same["buildings"][0]["geometry"] == same["after"][0]["geometry"]);
+    CHECK(same["buildings"][0]["surfaces"]["types"] == same["after"][0]["types"]);
+    CHECK(same["pack"]["labels"]["0"] == same["after"][0]["labels"]);
   }
 
   TEST_CASE("a page of nothing is not written") {
@@ -594,7 +599,7 @@ TEST_SUITE("cli") {
     const std::string cube = folder.write("cube.city.json", cubes({id}).dump());
     REQUIRE(run({"view", cube, "-o", folder / "page.html"}).exit == 0);
     CHECK(bytes_of(folder / "page.html").find("alert(1)</script>") == std::string::npos);
-    CHECK(page_data(folder / "page.html")["models"][0]["buildings"][0]["id"] == id);
+    CHECK(page_data(folder / "page.html")["state"]["buildings"][0]["id"] == id);
   }
 
   TEST_CASE("a page shows a building that stays open and says so, and none that cannot be read") {
@@ -607,10 +612,10 @@ TEST_SUITE("cli") {
     CHECK(outcome.exit == 3);
     CHECK(outcome.says("far: E501"));
     const json data = page_data(folder / "page.html");
-    REQUIRE(data["models"][0]["buildings"].size() == 1);
-    const json& building = data["models"][0]["buildings"][0];
-    CHECK(building["polygons"].size() == 5);
-    CHECK(building["polygons"][0]["surface"] != "");
+    REQUIRE(data["buildings"].size() == 1);
+    const json& building = data["state"]["buildings"][0];
+    CHECK(shape_of(data["buildings"][0]["geometry"]).polygons.size() == 5);
+    CHECK(data["buildings"][0]["surfaces"]["types"].at(0) != "");
     CHECK(building["issues"].at(0)["code"] == "E302");
     CHECK(building["issues"].at(0)["severity"] == "warning");
     CHECK(building["issues"].at(0)["sentence"].get<std::string>().starts_with("not closed"));

@@ -203,7 +203,7 @@ TEST_SUITE("cli") {
     for (const char* markup : {"<img src=x", "<!--<script>", "<script>alert", "</SCRIPT >"})
       CHECK(page.find(markup) == std::string::npos);
     for (const char* id : {"\"__proto__\"", "\"constructor\""})
-      CHECK(page.find(std::string("\"id\":") + id) != std::string::npos);
+      CHECK(page.find("," + std::string(id) + ",") != std::string::npos);
   }
 
   TEST_CASE("a CityGML file with an entity bomb costs itself only") {

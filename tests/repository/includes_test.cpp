@@ -42,12 +42,12 @@ const std::map<std::string, std::string> kAllowed{
     {"io/records/stage_json.h", "segment --json and repair --report"},
     {"model/building.h", "a value"},
     {"model/labelled_building.h", "a value"},
-    {"model/polygon_owners.h", "which features a polygon of a page lies in"},
     {"model/version.h", "--version, status files and pages"},
     {"experiments/experiment.h", "the command experiment"},
     {"studio/server/browser.h", "the studio's page is opened"},
     {"studio/lsp/language_server.h", "rules lsp"},
     {"studio/server/page_files.h", "view writes the studio's page without its editor"},
+    {"studio/session/recording.h", "with the replies of a session"},
     {"studio/server/serve.h", "the studio"},
 };
 
@@ -59,6 +59,7 @@ const std::map<std::string, std::string> kAllowedInStudio{
     {"kernel/base/issue.h", "what is reported, with its code"},
     {"kernel/base/sha256.h", "whether a file is still the one that was opened"},
     {"kernel/base/own_fault.h", "what an exception that nobody expects is reported as"},
+    {"io/cityjson/carried_labels.h", "recordings have the labels that a file carries"},
     {"io/document.h", "the records that the library reads"},
     {"io/files/file_lock.h", "one studio at a time saves"},
     {"io/files/output_file.h", "packs and corrections appear when they are whole"},

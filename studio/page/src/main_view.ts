@@ -1,13 +1,12 @@
-// The page that `oriel view` writes: the same workbench without editor, over the data that stand in the page; with --after a second
+// The page that `oriel view` writes: the same workbench without editor, over the replies that stand in the page; with --after a second
 // picture behind a divider.
-import {FileSource, type FileData} from './file_source';
+import {RecordedSource, type Pool} from './recorded_source';
 import {Divider} from './scene/divider';
 import {Store} from './store';
 import {Workbench} from './workbench';
 import {words} from './strings';
 
-const data = JSON.parse(document.getElementById('data')?.textContent ?? '{}') as FileData;
-const source = new FileSource(data);
+const source = new RecordedSource(JSON.parse(document.getElementById('data')?.textContent ?? '{}') as Pool);
 const after = source.hasAfter ? source.after() : null;
 const workbench = new Workbench(source, new Store(), words.shell.viewTitle);
 void workbench.start().then(() => {

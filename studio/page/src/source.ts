@@ -1,5 +1,5 @@
 // What the page asks and what it is answered: the types of every verb of studio/session, and the interface that both kinds of
-// source fulfil (ServerSource: the studio; FileSource: the file that `oriel view` writes).
+// source fulfil (ServerSource: the studio; RecordedSource: the file that `oriel view` writes).
 //
 // Buildings have numbers, features have indices in their building. Lengths are in metres, but vertices and boxes are in
 // millimetres from `State.origin_m`. Lines and columns begin at 1; columns are UTF-16 units, as strings of JavaScript have them.
@@ -73,14 +73,14 @@ export interface PackQuestion { text: string; version: number; params?: Record<s
 // ---- explain ----
 
 export interface ConditionRow {
-  text: string; found: string; asked: string; holds: boolean | null; line: number | null; depth: number; missed_by?: string;
+  text: string; found: string; asked: string; holds: boolean | null; line: number | null; depth: number; missed_by?: string; without_value?: string[];
   /** Of a term of a score, which neither holds nor fails: 0 to 1, and how much it counts. */
   score?: number | null; weight?: number;
 }
 export interface RuleReason {
   rule: string; label: string; holds: boolean | null; line: number | null; conditions: ConditionRow[];
   /** File and line as text, where there is no editor to open. */
-  place?: string;
+  place: string;
 }
 export interface NearestMiss { label: string; rule: string; line: number | null; sentence: string }
 export interface Flip { sentence: string; param: string; value: string; line: number | null }
@@ -91,7 +91,7 @@ export interface ExplainAnswer {
   sentence: string; label: string | null; rule: string | null; rule_line: number | null; why: RuleReason[]; why_not: NearestMiss[];
   flip: Flip | null; relations: RelationEntry[]; attributes: AttributeEntry[]; correction: Correction | null;
   /** The verdict in the words of `oriel explain`. */
-  head?: string;
+  head: string;
 }
 
 // ---- language ----

@@ -103,6 +103,7 @@ export const words = {
     senses: {hole: 'hole', protrusion: 'protrusion', cavity: 'cavity', imprint: 'panel'}, senseIs: (sense: string) => `is a ${sense}`,
     flipSearch: 'Looking for the smallest change that would give another label …',
     mustBe: (sense: string) => `must be a ${sense}`, mustBeOneOf: (list: string[]) => `must be a ${list.join(' or a ')}`,
+    missing: (attribute: string) => `${attribute} is missing`,
     scores: (score: number) => `scores ${score.toFixed(2)}`, andMore: (n: number) => `${n} more`, otherLabels: (n: number) => count(n, 'label is', 'labels are') + ' farther away',
     bySurfaceRule: (rule: string) => `The rule ${rule} says so.`, measures: 'Measures', rules: 'Rules in their order',
     surfaceName: (type: string) => ({WallSurface: 'Wall', RoofSurface: 'Roof', GroundSurface: 'Ground', OuterFloorSurface: 'Outer floor',

@@ -10,10 +10,6 @@
 
 namespace oriel::studio {
 
-namespace {
-
-using ClassNumbers = std::unordered_map<std::string, int>;
-
 ClassNumbers numbers_of_classes(const RuleBase& rules) {
   ClassNumbers numbers;
   const auto classes = classes_of(rules);
@@ -32,6 +28,8 @@ std::vector<int> classes_of_features(const Interpretation& interpretation,
   }
   return classes;
 }
+
+namespace {
 
 std::vector<int> doubtful_features(const Interpretation& interpretation,
                                    const FeatureTable& table) {

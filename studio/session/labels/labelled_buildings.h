@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace oriel::studio {
@@ -43,6 +44,15 @@ struct LabelledBuildings {
   /// By the building's number; null: it is not loaded yet.
   std::vector<std::shared_ptr<const LabelledFeatures>> buildings;
 };
+
+/// The classes of a pack by name, as places in classes_of().
+using ClassNumbers = std::unordered_map<std::string, int>;
+
+ClassNumbers numbers_of_classes(const RuleBase& rules);
+
+/// LabelledFeatures::classes.
+std::vector<int> classes_of_features(const Interpretation& interpretation,
+                                     const ClassNumbers& numbers);
 
 /// How buildings are labelled anew.
 struct LabellingRun {

@@ -3,6 +3,7 @@
 #include "oriel/rules.h"
 #include "studio/session/desk.h"
 #include "studio/session/labels/pack_answer.h"
+#include "studio/session/reply_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +19,9 @@ namespace {
 /// Writes an explanation for the page.
 class ExplanationWriter {
  public:
-  ExplanationWriter(const LabelledBuildings& all, const LabelledFeatures& labelled,
+  ExplanationWriter(const RuleBase& rules, const LabelledFeatures& labelled,
                     const Explanation& explanation, FeatureId feature)
-      : rules_(all.rules), labelled_(labelled), explanation_(explanation), feature_(feature) {}
+      : rules_(rules), labelled_(labelled), explanation_(explanation), feature_(feature) {}
 
   [[nodiscard]] StudioJson json() const {
     const Verdict& verdict = explanation_.verdict;
@@ -37,7 +38,9 @@ class ExplanationWriter {
             {"why_not", why_not()},
             {"flip", flip()},
             {"relations", relations()},
-            {"attributes", attributes()}};
+            {"attributes", attributes()},
+            {"correction", StudioJson()},
+            {"head", headline(explanation_)}};
   }
 
  private:
@@ -88,6 +91,14 @@ class ExplanationWriter {
     for (const ConditionReport& condition : rule.unless) add(condition, true, 0, list);
     if (rule.outcome == Outcome::holds)
       for (const TermReport& term : rule.terms) add(term, list);
+    for (const ExplanationRow& row : rows_of(rule))
+      if (row.cells[0].starts_with("evidence "))
+        list.push_back({{"text", row.cells[0]},
+                        {"found", row.cells[1]},
+                        {"asked", row.cells[2]},
+                        {"holds", StudioJson()},
+                        {"line", line(row.place)},
+                        {"depth", 0}});
     return list;
   }
 
@@ -107,6 +118,7 @@ class ExplanationWriter {
                       {"holds", holds(rule->outcome)},
                       {"score", rounded(rule->total(), 3)},
                       {"line", line(rule->place)},
+                      {"place", place_text(rule->place)},
                       {"conditions", conditions(*rule)}});
     return list;
   }
@@ -230,6 +242,11 @@ Explanation explain_fully(Desk& desk, const Explainer& explainer, const AskedBui
 
 }  // namespace
 
+StudioJson explanation_json(const RuleBase& rules, const LabelledFeatures& labelled,
+                            const Explanation& explanation, FeatureId feature) {
+  return ExplanationWriter(rules, labelled, explanation, feature).json();
+}
+
 StudioJson answer_explain(Desk& desk, const RequestBody& body) {
   const AskedBuilding asked = asked_building(desk, body);
   const OpenBuilding& open = *asked.labelled->building;
@@ -243,7 +260,7 @@ StudioJson answer_explain(Desk& desk, const RequestBody& body) {
                                      : explain_fully(desk, explainer, asked, feature);
   explanation.name =
       feature_names(*open.segmented.segmentation, table, &interpretation).at(feature.index());
-  StudioJson answer = ExplanationWriter(*asked.all, *asked.labelled, explanation, feature).json();
+  StudioJson answer = explanation_json(asked.all->rules, *asked.labelled, explanation, feature);
   answer["correction"] = correction_of(desk, asked, feature);
   return answer;
 }

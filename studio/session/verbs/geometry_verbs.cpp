@@ -5,6 +5,7 @@
 #include "studio/session/geometry_json.h"
 #include "studio/session/labels/pack_answer.h"
 #include "studio/session/open_buildings.h"
+#include "studio/session/reply_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -23,12 +24,6 @@
 namespace oriel::studio {
 
 namespace {
-
-/// A building with its number.
-struct NumberedBuilding {
-  std::size_t number = 0;
-  const OpenBuilding* open = nullptr;
-};
 
 constexpr std::size_t kAligned = 4;
 constexpr std::int64_t kMostShort = std::numeric_limits<std::uint16_t>::max();
@@ -99,24 +94,8 @@ StudioJson storeys_json(const OpenBuilding& open, const Vec3& origin_m) {
   return list;
 }
 
-/// What a picture needs of buildings, as bytes that a browser reads without looking at every
-/// number. First four bytes: the length of a JSON text; then the text, blanks up to the next
-/// multiple of four, and for each building that the text names, in its order, these lists, each
-/// filled up to a multiple of four. Numbers are whole, the lowest byte first.
-///
-/// | list | numbers |
-/// |---|---|
-/// | vertices | three each, in millimetres from `base_mm`; 4 bytes, or 2 if `is_short` |
-/// | ring_ends | for each polygon the end of its rings in corner_ends |
-/// | corner_ends | for each ring, an outer one before its holes, the end of its corners |
-/// | corners | vertices |
-/// | owner_ends | for each polygon the end of its owners |
-/// | owners | features that list the polygon, the smallest first |
-///
-/// The lists but the first have 2 bytes a number if `are_few`, else 4.
-///
-/// The JSON text: {"buildings": [{number, base_mm, is_short, are_few, vertices, polygons, rings,
-/// corners, owners (how many of each), storeys_mm}]}; millimetres from `origin_m`.
+}  // namespace
+
 std::string building_bytes(const std::vector<NumberedBuilding>& buildings, const Vec3& origin_m) {
   StudioJson entries = StudioJson::array();
   std::string lists;
@@ -147,6 +126,8 @@ std::string building_bytes(const std::vector<NumberedBuilding>& buildings, const
   return bytes.append(head).append(lists);
 }
 
+namespace {
+
 /// What the slider of scales stops at: denominators.
 constexpr int kScales[] = {1, 500, 1000, 2500, 5000, 10000, 25000};
 
@@ -170,6 +151,8 @@ const std::vector<std::string>& levels_of_detail() {
   return levels;
 }
 
+}  // namespace
+
 StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
                           const Vec3& origin_m) {
   const Box box = box_of(*read.building);
@@ -188,12 +171,11 @@ StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
   return entry;
 }
 
-StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* labelled) {
+StudioJson features_json(const OpenBuilding& open, const Interpretation* interpretation) {
   StudioJson list = StudioJson::array();
   const PipelineResult& result = open.segmented;
   if (!result.is_done()) return list;
-  const auto names = feature_names(*result.segmentation, result.description.table,
-                                   labelled != nullptr ? &labelled->interpretation : nullptr);
+  const auto names = feature_names(*result.segmentation, result.description.table, interpretation);
   for (std::size_t i = 0; i < open.features.size(); ++i) {
     const Feature& feature = result.segmentation->features[i];
     list.push_back({{"id", open.features[i].id},
@@ -204,7 +186,14 @@ StudioJson features_json(const OpenBuilding& open, const LabelledFeatures* label
   return list;
 }
 
-}  // namespace
+StudioJson surfaces_json(const std::vector<SurfaceExplanation>& surfaces) {
+  StudioJson types = StudioJson::array(), why = StudioJson::array();
+  for (const SurfaceExplanation& surface : surfaces) {
+    types.push_back(surface.type);
+    why.push_back(surface.reason);
+  }
+  return {{"types", std::move(types)}, {"why", std::move(why)}};
+}
 
 StudioJson answer_state(Desk& desk, const RequestBody& /*body*/) {
   const LoadingState loading = desk.buildings.loading();
@@ -246,7 +235,8 @@ StudioJson answer_features(Desk& desk, const RequestBody& body) {
     const LabelledFeatures* features = labelled && number < labelled->buildings.size()
                                            ? labelled->buildings[number].get()
                                            : nullptr;
-    buildings.push_back({{"number", number}, {"features", features_json(*list[number], features)}});
+    const Interpretation* said = features != nullptr ? &features->interpretation : nullptr;
+    buildings.push_back({{"number", number}, {"features", features_json(*list[number], said)}});
   }
   return {{"buildings", std::move(buildings)}};
 }
@@ -273,13 +263,7 @@ StudioJson answer_surfaces(Desk& desk, const RequestBody& body) {
   options.has_output = false;
   options.measures_surfaces = true;
   const PipelineResult result = label(*open.building, open.segmented, asked.all->rules, options);
-  StudioJson types = StudioJson::array(), why = StudioJson::array();
-  for (const SurfaceExplanation& surface :
-       explain_surfaces(*open.building, result, asked.all->rules)) {
-    types.push_back(surface.type);
-    why.push_back(surface.reason);
-  }
-  return {{"types", std::move(types)}, {"why", std::move(why)}};
+  return surfaces_json(explain_surfaces(*open.building, result, asked.all->rules));
 }
 
 }  // namespace oriel::studio

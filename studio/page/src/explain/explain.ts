@@ -153,7 +153,7 @@ function featureContent(app: App, [building, feature]: Part, answer: ExplainAnsw
     section(words.explain.whyNot, 'whynot', [...missElements(app, answer.why_not), othersElement(app, answer.why.filter(rule => !isReason(rule)))]),
     section(words.explain.relations, 'relations', answer.relations.filter(r => r.features.length > 0).map(r => relationElement(app, building, r))),
     attributesElement(answer.attributes),
-    answer.head ? el('p', {class: 'quiet small', id: 'head'}, answer.head) : null,
+    !app.source.can.edit ? el('p', {class: 'quiet small', id: 'head'}, answer.head) : null,
     about ? el('p', {class: 'quiet small', id: 'id'}, words.explain.id, ' ', el('code', {}, about.id)) : null
   ];
   return content.filter((child): child is HTMLElement => child !== null);
@@ -186,9 +186,7 @@ function section(title: string, id: string, children: HTMLElement[], empty = '')
 
 function lineLink(app: App, line: number | null): HTMLElement | null {
   if (!line) return null;
-  const text = words.explain.line(line);
-  if (!app.source.can.edit) return el('span', {class: 'quiet small'}, text);
-  return el('button', {type: 'button', class: 'link small', 'data-line': line, onclick: () => app.openLine(line)}, text);
+  return el('button', {type: 'button', class: 'link small', 'data-line': line, onclick: () => app.openLine(line)}, words.explain.line(line));
 }
 
 function ruleElement(app: App, rule: RuleReason, isOpen: boolean): HTMLElement {
@@ -197,8 +195,8 @@ function ruleElement(app: App, rule: RuleReason, isOpen: boolean): HTMLElement {
     el('span', {class: `rule-state ${kindOf(rule.holds)}`}, saidOf(rule.holds)),
     el('code', {}, rule.rule), rule.label ? ` → ${rule.label}` : '',
     obstacle ? el('span', {class: 'obstacle quiet'}, plainWords(obstacle.found || obstacle.text)) : null),
-    el('ul', {class: 'conditions'}, ...rule.conditions.map(conditionElement)), lineLink(app, rule.line),
-    rule.place ? el('span', {class: 'quiet small'}, rule.place) : null);
+    el('ul', {class: 'conditions'}, ...rule.conditions.map(conditionElement)),
+    app.source.can.edit ? lineLink(app, rule.line) : el('span', {class: 'quiet small'}, rule.place));
 }
 
 const kindOf = (holds: boolean | null) => (holds === null ? 'open' : holds ? 'good' : 'grave');
@@ -206,11 +204,11 @@ const saidOf = (holds: boolean | null) => (holds === null ? words.explain.isOpen
 
 /** What was found first, then what was asked; the pack's own words where nothing was found. */
 function conditionElement(condition: ConditionRow): HTMLElement {
-  const {holds, found, asked, text, depth, missed_by, score} = condition;
+  const {holds, found, asked, text, depth, missed_by, without_value, score} = condition;
   const isTerm = score !== undefined;
   const kind = isTerm ? 'term' : kindOf(holds);
   const main = found || text;
-  const more = [asked, missed_by, typeof score === 'number' ? words.explain.scores(score) : ''].filter((part): part is string => Boolean(part));
+  const more = [asked, missed_by, ...(without_value ?? []).map(words.explain.missing), typeof score === 'number' ? words.explain.scores(score) : ''].filter((part): part is string => Boolean(part));
   return el('li', {class: `condition is-${kind}`, style: {'--depth': String(depth)}, title: text, 'data-found': found},
     el('span', {class: 'mark', role: 'img', 'aria-label': isTerm ? words.explain.scores(score ?? 0) : saidOf(holds)}, {open: '?', good: '✓', grave: '✗', term: '·'}[kind]),
     el(isCode(plainWords(main)) ? 'code' : 'span', {class: 'found'}, plainWords(main)),
