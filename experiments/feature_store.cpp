@@ -8,7 +8,7 @@
 #include "kernel/base/own_fault.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/counted.h"
-#include "oriel/pipeline/pipeline.h"
+#include "oriel/segment.h"
 #include "oriel/stored_samples.h"
 #include "oriel/write.h"
 
@@ -62,11 +62,8 @@ void put_boxes(std::vector<FeatureRecord>& records, const std::vector<Box>& boxe
 void make_features(BuildingAtWork& work, const FeatureRecipe& recipe) {
   std::optional<Perturbed> changed;
   if (recipe.perturbation) changed = perturbed(work.building, *recipe.perturbation);
-  LabelOptions options;
-  static_cast<PipelineOptions&>(options) = recipe.options;
-  options.neighbours = recipe.neighbours;
   const PipelineResult result =
-      run_pipeline(changed ? changed->building : work.building, nullptr, options);
+      segment(changed ? changed->building : work.building, recipe.options, recipe.neighbours);
   if (!result.is_done()) {
     const auto why = std::ranges::find(result.issues, Severity::error, &Issue::severity);
     work.fault = why == result.issues.end() ? Issue() : *why;

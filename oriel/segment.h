@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/work.h"
+#include "kernel/neighbours/neighbours.h"
 #include "kernel/segment/tree/balance.h"
 #include "model/building.h"
 #include "model/cell_complex.h"
@@ -8,6 +9,7 @@
 #include "oriel/result.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace oriel {
@@ -27,7 +29,9 @@ PipelineResult solid_of(const Building& building, const PipelineOptions& options
 /// PipelineResult::is_done() says whether it came to the end; if not, `issues` has the error. Never
 /// throws: a fault of oriel's own is an error E901 of the building. The result depends on the
 /// building and the options only.
-PipelineResult segment(const Building& building, const PipelineOptions& options = {});
+/// `neighbours` are LabelOptions::neighbours.
+PipelineResult segment(const Building& building, const PipelineOptions& options = {},
+                       std::shared_ptr<const NeighbourSearch> neighbours = nullptr);
 
 /// Which cell of a building meets which, and where (docs/segmentation.md). `result` is what
 /// segment() or label() said of it, is_done().

@@ -17,9 +17,11 @@ PipelineResult solid_of(const Building& building, const PipelineOptions& options
   return run_to_solid(building, options.tolerances, options.repair, work, options.observer);
 }
 
-PipelineResult segment(const Building& building, const PipelineOptions& options) {
+PipelineResult segment(const Building& building, const PipelineOptions& options,
+                       std::shared_ptr<const NeighbourSearch> neighbours) {
   LabelOptions labelling;
   static_cast<PipelineOptions&>(labelling) = options;
+  labelling.neighbours = std::move(neighbours);
   return run_pipeline(building, nullptr, labelling);
 }
 
