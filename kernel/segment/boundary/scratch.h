@@ -12,6 +12,8 @@ namespace oriel::detail {
 
 /// A facet of a body that is being cut: Boundary::facet. Not one of the solid, which is a FacetId.
 using BodyFacetId = Id<struct BodyFacetTag>;
+/// A crossing of a section: Section::crossings.
+using CrossingId = Id<struct CrossingTag>;
 
 constexpr std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
 template <class Tag>
@@ -94,7 +96,7 @@ struct Chords {
 /// A crossing as one of its two facets sees it.
 struct ChordEnd {
   double along;  ///< place on the line in which the facet meets the plane
-  int crossing;
+  CrossingId crossing;
   bool leads_down;  ///< the facet's own half-edge leads down here: a chord begins
 };
 
@@ -134,8 +136,8 @@ struct Scratch {
   // Floods.
   StampSet<EdgeId> flooded_edges;
   StampSet<BodyFacetId> flooded_facets, facets_with_chord;
-  IndexedVector<BodyFacetId, int> last_chord_in;
-  IndexedVector<EdgeId, int> crossing_of_edge;
+  IndexedVector<BodyFacetId, CrossingId> last_chord_in;
+  IndexedVector<EdgeId, CrossingId> crossing_of_edge;
 
   // Pockets.
   StampSet<EdgeId> rim_edges;

@@ -46,12 +46,12 @@ std::vector<std::pair<PointId, PointId>> edges_of(const CapLoop& loop) {
 /// Of each lump of a choice the last one that is the same pocket, moved: what becomes of the one is
 /// known from the other. Itself, if there is none; nothing if that is not known of one.
 std::vector<std::size_t> models_of(const CutChoice& choice) {
-  std::map<int, std::size_t> last_of_kind;
+  std::map<PocketKindId, std::size_t> last_of_kind;
   const auto& lumps = choice.lumps;
   for (std::size_t i = 0; i < lumps.size(); ++i) {
     if (lumps[i].is_alone) continue;
-    if (lumps[i].pocket < 0) return {};
-    const int kind = choice.pockets->kind_of(lumps[i].pocket);
+    if (!lumps[i].pocket.is_valid()) return {};
+    const PocketKindId kind = choice.pockets->kind_of(lumps[i].pocket);
     last_of_kind[kind] = i;
   }
   std::vector<std::size_t> models;
@@ -65,7 +65,7 @@ std::vector<std::size_t> models_of(const CutChoice& choice) {
 /// A lump of a choice is a pocket that comes off without a body, as the leaf that it is. `models`:
 /// those of the choice.
 bool is_leaf(const CutChoice& choice, const Lump& lump, std::span<const std::size_t> models) {
-  return !models.empty() && choice.is_natural && lump.pocket >= 0 &&
+  return !models.empty() && choice.is_natural && lump.pocket.is_valid() &&
          choice.pockets->is_leaf(choice.pockets->kind_of(lump.pocket));
 }
 
@@ -115,7 +115,7 @@ struct Snapshot {
 Snapshot snapshot_of(const GrowingTree& tree, const WaitingBody& from, const CutChoice& choice) {
   const bool has_pockets_only =
       choice.patches.empty() &&
-      std::ranges::all_of(choice.lumps, [](const Lump& lump) { return lump.pocket >= 0; });
+      std::ranges::all_of(choice.lumps, [](const Lump& lump) { return lump.pocket.is_valid(); });
   const bool may_fail =
       !choice.is_natural || choice.has_neck || choice.imprinted || !has_pockets_only;
   return {may_fail ? std::optional(from.body) : std::nullopt,
@@ -180,8 +180,8 @@ class Cut {
       return false;
     if (choice.lumps.size() != 1 || choice.lumps[0].regions.empty()) return false;
     const Lump& lump = choice.lumps[0];
-    for (const int region : lump.regions)
-      if (!choice.section->regions[at(region)].covered.empty()) return false;
+    for (const RegionId region : lump.regions)
+      if (!choice.section->regions[region].covered.empty()) return false;
     const double rest = from.body.volume() - lump.volume;
     constexpr double kSlab = 0.1;  // of the volume: less than what a coarser scale may leave out
     return rest < kSlab * from.body.volume() &&
@@ -210,7 +210,7 @@ class Cut {
   bool take_off_lump(const Lump& lump) {
     std::vector<PointId> touched;
     std::vector<CutCap> caps;
-    if (lump.pocket >= 0)
+    if (lump.pocket.is_valid())
       caps.push_back(choice_.pockets->cap_of(lump.pocket));
     else
       caps = imprint(from_.body, *choice_.section, lump, touched);

@@ -118,7 +118,7 @@ std::optional<CutChoice> Chooser::corner_cut(std::span<const Patch> natural) {
 std::optional<CutChoice> Chooser::part_on_steps(const CutChoice& choice) {
   constexpr int kLeastOrder = 3;  // the two planes, and one that joins them
   if (choice.is_hole || options_.max_order < kLeastOrder) return std::nullopt;
-  const auto has_bend = [](const Lump& lump) { return lump.pocket < 0 && lump.has_bend; };
+  const auto has_bend = [](const Lump& lump) { return !lump.pocket.is_valid() && lump.has_bend; };
   if (std::ranges::none_of(choice.lumps, has_bend)) return std::nullopt;
   const PlaneTable& planes = world_.planes;
   const PlaneSide rear = choice.sides[0];
@@ -165,28 +165,28 @@ bool Chooser::is_better(const CutChoice& p, const CutChoice& q) const {
 /// the first; a lump that is alone is none of a kind.
 Lump Chooser::lump_at(const RegionCandidate& candidate, bool is_alone) {
   const Section& section = *candidate.section;
-  const int pocket = pockets_.find(section, candidate.region, is_alone);
-  if (pocket >= 0 && !is_alone) {
-    const int kind = pockets_.kind_of(pocket);
-    if (kind >= std::ssize(lump_of_kind_)) lump_of_kind_.resize(at(kind) + 1, -1);
-    if (const int first = lump_of_kind_[at(kind)]; first >= 0) {
+  const PocketId pocket = pockets_.find(section, candidate.region, is_alone);
+  if (pocket.is_valid() && !is_alone) {
+    const PocketKindId kind = pockets_.kind_of(pocket);
+    if (!lump_of_kind_.contains(kind)) lump_of_kind_.resize(kind.index() + 1, -1);
+    if (const int first = lump_of_kind_[kind]; first >= 0) {
       Lump same = lumps_[at(first)];
       same.regions = {candidate.region};
-      same.new_area = section.regions[at(candidate.region)].new_area;
+      same.new_area = section.regions[candidate.region].new_area;
       same.pocket = pocket;
       return same;
     }
-    lump_of_kind_[at(kind)] = static_cast<int>(lumps_.size());
+    lump_of_kind_[kind] = static_cast<int>(lumps_.size());
   }
-  Lump lump = pocket < 0 ? flood(candidate) : lump_of(pocket, candidate);
+  Lump lump = !pocket.is_valid() ? flood(candidate) : lump_of(pocket, candidate);
   lump.is_alone = is_alone;
   lump.pocket = pocket;
   return lump;
 }
 
-Lump Chooser::lump_of(int pocket, const RegionCandidate& candidate) {
+Lump Chooser::lump_of(PocketId pocket, const RegionCandidate& candidate) {
   const Section& section = *candidate.section;
-  const Region& region = section.regions[at(candidate.region)];
+  const Region& region = section.regions[candidate.region];
   const auto flooded = pockets_.flooded(pocket, section, region);
   if (!flooded) return flood(candidate);
   Lump lump;
@@ -226,7 +226,7 @@ std::optional<double> Chooser::key_of(Pass pass, const Region& region, double ne
 /// of the pass.
 bool Chooser::check(RegionCandidate& candidate, Pass pass, bool is_alone) {
   const Section& section = *candidate.section;
-  const Region& region = section.regions[at(candidate.region)];
+  const Region& region = section.regions[candidate.region];
   Lump found = lump_at(candidate, is_alone);
   candidate.lump = static_cast<int>(lumps_.size());
   lumps_.push_back(std::move(found));
@@ -236,16 +236,15 @@ bool Chooser::check(RegionCandidate& candidate, Pass pass, bool is_alone) {
   if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 || lump.new_area < least_m * least_m ||
       (!region.is_material && !lump.has_bend))
     return false;
-  for (const int r : lump.regions) {
-    const auto value =
-        key_of(pass, section.regions[at(r)], lump.new_area, section.old_area(region));
+  for (const RegionId r : lump.regions) {
+    const auto value = key_of(pass, section.regions[r], lump.new_area, section.old_area(region));
     if (!value) return false;
     candidate.key = *value;
   }
   if (pass == Pass::wide_natural && is_larger_half(lump, section)) return false;
   // A lump in front of several regions is one candidate, that of the first region that is one.
   const auto first = std::ranges::find_if(
-      lump.regions, [&](int r) { return section.regions[at(r)].is_candidate; });
+      lump.regions, [&](RegionId r) { return section.regions[r].is_candidate; });
   return *first == candidate.region;
 }
 
@@ -253,14 +252,14 @@ bool Chooser::check(RegionCandidate& candidate, Pass pass, bool is_alone) {
 /// block, whose wall comes down to the ground between two pieces of a plinth, does not end on it.
 bool Chooser::is_larger_half(const Lump& lump, const Section& section) const {
   const bool has_neck =
-      std::ranges::any_of(lump.regions, [&](int r) { return section.regions[at(r)].has_neck; });
+      std::ranges::any_of(lump.regions, [&](RegionId r) { return section.regions[r].has_neck; });
   return has_neck && 2 * lump.volume > (1 - tie_) * body_.volume();
 }
 
 template <class Visit>
 void Chooser::for_each_candidate(const Section& section, Pass pass, Visit visit) const {
-  for (int r = 0; r < std::ssize(section.regions); ++r) {
-    const Region& region = section.regions[at(r)];
+  for (const RegionId r : section.regions.ids()) {
+    const Region& region = section.regions[r];
     const double old = region.is_candidate ? section.old_area(region) : 0;
     if (old <= 0 || is_banned(section, region)) continue;
     if (const auto key = key_of(pass, region, region.new_area, old)) visit(r, *key);
@@ -277,7 +276,7 @@ double Chooser::least_key(std::size_t number, Pass pass) {
   if (least.version == side.version && banned_->empty()) return least.key;
   least = {banned_->empty() ? side.version : -1, std::numeric_limits<double>::infinity()};
   for_each_candidate(*side.section, pass,
-                     [&](int, double key) { least.key = std::min(least.key, key); });
+                     [&](RegionId, double key) { least.key = std::min(least.key, key); });
   return least.key;
 }
 
@@ -290,7 +289,7 @@ void Chooser::take_candidates(std::vector<RegionCandidate>& candidates, Pass pas
     std::ranges::pop_heap(waiting_, std::greater{});
     const Section& section = *candidates_[number].section;
     double next = std::numeric_limits<double>::infinity();
-    for_each_candidate(section, pass, [&](int region, double key) {
+    for_each_candidate(section, pass, [&](RegionId region, double key) {
       if (key > most)
         next = std::min(next, key);
       else if (key >= least)
@@ -347,7 +346,7 @@ void Chooser::wait_for_sections(Pass pass) {
 std::optional<CutChoice> Chooser::best_section_cut(Pass pass) {
   std::vector<RegionCandidate> candidates;
   lumps_.clear();
-  lump_of_kind_.assign(at(pockets_.kind_count()), -1);
+  lump_of_kind_.assign(pockets_.kind_count(), -1);
   wait_for_sections(pass);
   check_leaders(candidates, pass);
   std::optional<CutChoice> best;
@@ -356,7 +355,7 @@ std::optional<CutChoice> Chooser::best_section_cut(Pass pass) {
   double least = std::numeric_limits<double>::infinity();
   for (const RegionCandidate& c : candidates) least = std::min(least, c.key);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const bool is_material = candidates[i].section->regions[at(candidates[i].region)].is_material;
+    const bool is_material = candidates[i].section->regions[candidates[i].region].is_material;
     const std::pair kind(candidates[i].number, is_material);
     if (!is_same_value(candidates[i].key, least) || std::ranges::find(done, kind) != done.end())
       continue;
@@ -372,7 +371,7 @@ CutChoice Chooser::choice_of(std::span<const RegionCandidate> candidates,
                              std::size_t leader) const {
   const RegionCandidate& first = candidates[leader];
   const Section& section = *first.section;
-  const Region& region = section.regions[at(first.region)];
+  const Region& region = section.regions[first.region];
   CutChoice choice;
   choice.is_hole = !region.is_material;
   choice.is_natural = true;
@@ -386,13 +385,13 @@ CutChoice Chooser::choice_of(std::span<const RegionCandidate> candidates,
     if (c.section != first.section || c.lump < 0 ||
         c.key > first.key * (1 + std::max(tie_, options_.tolerances.value_rel)))
       continue;
-    if (section.regions[at(c.region)].is_material != region.is_material) continue;
+    if (section.regions[c.region].is_material != region.is_material) continue;
     choice.lumps.push_back(lump_of(c));
     choice.lumps.back().value = c.key;
     choice.volume += lump_of(c).volume;
-    for (const int r : lump_of(c).regions) {
-      choice.is_natural &= section.regions[at(r)].is_natural;
-      choice.has_neck |= section.regions[at(r)].has_neck;
+    for (const RegionId r : lump_of(c).regions) {
+      choice.is_natural &= section.regions[r].is_natural;
+      choice.has_neck |= section.regions[r].has_neck;
     }
   }
   return choice;

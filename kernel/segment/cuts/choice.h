@@ -79,7 +79,7 @@ class Chooser {
   struct RegionCandidate {
     std::size_t number = 0;  ///< of its section in candidates_
     const Section* section = nullptr;
-    int region = -1;
+    RegionId region = {};
     int lump = -1;  ///< in lumps_ once the flood has found it
     double key = 0;
   };
@@ -100,7 +100,7 @@ class Chooser {
   bool check(RegionCandidate& candidate, Pass pass, bool is_alone);
   [[nodiscard]] bool is_larger_half(const Lump& lump, const Section& section) const;
   Lump lump_at(const RegionCandidate& candidate, bool is_alone);
-  Lump lump_of(int pocket, const RegionCandidate& candidate);
+  Lump lump_of(PocketId pocket, const RegionCandidate& candidate);
   Lump flood(const RegionCandidate& candidate);
   std::optional<CutChoice> best_patch_cut(std::span<const Patch> patches, int min_order,
                                           int max_order);
@@ -140,7 +140,8 @@ class Chooser {
   std::vector<Lump> lumps_;
   const Section* flooded_ = nullptr;  ///< the one that finder_ is for
   std::optional<LumpFinder> finder_;
-  std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets; -1: none yet
+  IndexedVector<PocketKindId, int>
+      lump_of_kind_;  ///< the first lump of each kind of pockets; -1: none yet
 };
 
 }  // namespace oriel::detail

@@ -28,8 +28,8 @@ bool imprint_all(Boundary& body, PlaneSide side, double weld_m) {
   section_at(body, section, edges.edges_at(0, section.direction), {-1, weld_m});
   if (section.loops.empty()) return section.crossings.empty();
   Lump all;
-  for (int r = 0; r < std::ssize(section.regions); ++r)
-    if (section.regions[at(r)].is_material) all.regions.push_back(r);
+  for (const RegionId r : section.regions.ids())
+    if (section.regions[r].is_material) all.regions.push_back(r);
   std::vector<PointId> touched;
   imprint(body, section, all, touched);
   return true;

@@ -27,9 +27,9 @@ int level_at(const Boundary& body, const Section& section, PointId point) {
 
 /// The edge that a chord is already: it leads from one end of it to the other, and its facet meets
 /// the plane nowhere else, as those of a window do. Invalid: none.
-EdgeId edge_of_chord(const Boundary& body, const Section& section, int c) {
-  const EdgeId begin = section.crossings[at(c)].edge;
-  const EdgeId end = body.twin(section.crossings[at(section.crossings[at(c)].next)].edge);
+EdgeId edge_of_chord(const Boundary& body, const Section& section, CrossingId c) {
+  const EdgeId begin = section.crossings[c].edge;
+  const EdgeId end = body.twin(section.crossings[section.crossings[c].next].edge);
   const EdgeId e = body.next(begin);
   if (body.next(e) != end) return {};
   int on_plane = 0;
@@ -79,10 +79,10 @@ class Imprinter {
     split_edges();
     collect_corners();
     std::vector<CutCap> caps;
-    for (const int r : lump_.regions) {
-      const Region& region = section_.regions[at(r)];
+    for (const RegionId r : lump_.regions) {
+      const Region& region = section_.regions[r];
       CutCap cap{section_.split_side(region), {}, region.covered};
-      for (const int l : region.loops) {
+      for (const SectionLoopId l : region.loops) {
         CapLoop loop = rim_of(l);
         if (!loop.edges.empty()) cap.loops.push_back(std::move(loop));
       }
@@ -97,20 +97,20 @@ class Imprinter {
 
   template <class Visit>
   void for_each_crossing(Visit visit) {
-    for (const int r : lump_.regions)
-      for (const int l : section_.regions[at(r)].loops) {
-        int c = section_.loops[at(l)].first;
+    for (const RegionId r : lump_.regions)
+      for (const SectionLoopId l : section_.regions[r].loops) {
+        CrossingId c = section_.loops[l].first;
         do {
           visit(c);
-          c = section_.crossings[at(c)].next;
-        } while (c != section_.loops[at(l)].first);
+          c = section_.crossings[c].next;
+        } while (c != section_.loops[l].first);
       }
   }
 
   /// Edges that cross the plane between their ends get a vertex there.
   void split_edges() {
-    for_each_crossing([&](int c) {
-      const EdgeId e = section_.crossings[at(c)].edge;
+    for_each_crossing([&](CrossingId c) {
+      const EdgeId e = section_.crossings[c].edge;
       const PointId high = body_.origin(e), low = body_.target(e);
       if (level(low) == 0) return;
       const int f = body_.side_of_edge(e) >> 1, g = body_.side_of_edge(body_.twin(e)) >> 1;
@@ -120,14 +120,14 @@ class Imprinter {
     });
   }
 
-  [[nodiscard]] EdgeId edge_of(int c) const { return edge_of_chord(body_, section_, c); }
+  [[nodiscard]] EdgeId edge_of(CrossingId c) const { return edge_of_chord(body_, section_, c); }
 
   /// For every facet that a chord may split: its corners on the plane that touch it from the other
   /// side, along the line.
   void collect_corners() {
-    for_each_crossing([&](int c) {
+    for_each_crossing([&](CrossingId c) {
       if (edge_of(c).is_valid()) return;
-      const BodyFacetId f = body_.facet_of(section_.crossings[at(c)].edge);
+      const BodyFacetId f = body_.facet_of(section_.crossings[c].edge);
       const auto [entry, is_new] = corners_.try_emplace(f);
       if (!is_new) return;
       const Vec3 line = line_in(f);
@@ -148,16 +148,16 @@ class Imprinter {
   }
 
   /// The rim of a loop, chord by chord, without stretches that it runs there and back.
-  CapLoop rim_of(int l) {
+  CapLoop rim_of(SectionLoopId l) {
     Rim rim;
-    int c = section_.loops[at(l)].first;
+    CrossingId c = section_.loops[l].first;
     do {
       if (const EdgeId e = edge_of(c); e.is_valid())
         rim.push_back(e);
       else
         add_chord(c, rim);
-      c = section_.crossings[at(c)].next;
-    } while (c != section_.loops[at(l)].first);
+      c = section_.crossings[c].next;
+    } while (c != section_.loops[l].first);
     cancel_spikes(body_, rim);
     return cap_loop(body_, rim);
   }
@@ -165,9 +165,9 @@ class Imprinter {
   /// Makes the chord from crossing c an edge of the body, and adds its upper half-edges to the rim.
   /// The chord goes from corner to corner; where an existing edge leads from one to the next it is
   /// that edge.
-  void add_chord(int c, Rim& rim) {
-    const EdgeId begin = section_.crossings[at(c)].edge;
-    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+  void add_chord(CrossingId c, Rim& rim) {
+    const EdgeId begin = section_.crossings[c].edge;
+    const EdgeId end = body_.twin(section_.crossings[section_.crossings[c].next].edge);
     const BodyFacetId f = body_.facet_of(begin);
     const Vec3 line = line_in(f);
     const EdgeId last_in = body_.prev(end);
@@ -237,19 +237,19 @@ std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& 
 std::optional<std::vector<CutCap>> bare_caps(const Boundary& body, const Section& section,
                                              const Lump& lump) {
   std::vector<CutCap> caps;
-  for (const int r : lump.regions) {
-    const Region& region = section.regions[at(r)];
+  for (const RegionId r : lump.regions) {
+    const Region& region = section.regions[r];
     if (!region.covered.empty()) return std::nullopt;
     CutCap& cap = caps.emplace_back(CutCap{section.split_side(region), {}, {}});
-    for (const int l : region.loops) {
+    for (const SectionLoopId l : region.loops) {
       Rim rim;
-      int c = section.loops[at(l)].first;
+      CrossingId c = section.loops[l].first;
       do {
         const EdgeId e = edge_of_chord(body, section, c);
         if (!e.is_valid()) return std::nullopt;
         rim.push_back(e);
-        c = section.crossings[at(c)].next;
-      } while (c != section.loops[at(l)].first);
+        c = section.crossings[c].next;
+      } while (c != section.loops[l].first);
       cancel_spikes(body, rim);
       if (rim.empty()) return std::nullopt;
       cap.loops.push_back(cap_loop(body, rim));

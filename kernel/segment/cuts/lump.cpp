@@ -13,31 +13,30 @@ LumpFinder::LumpFinder(const Boundary& body, const Section& section)
       ranks_(body.world().points.ranks(body.world().planes.class_of(section.plane))),
       plane_rank_(body.world().planes.rank_of(section.plane)),
       scratch_(body.world().scratch),
-      next_in_facet_(section.crossings.size(), -1),
-      previous_(section.crossings.size(), -1),
-      region_of_(section.loops.size(), {-1, -1}),
+      next_in_facet_(section.crossings.size()),
+      previous_(section.crossings.size()),
+      region_of_(section.loops.size()),
       crossing_stamp_(section.crossings.size(), 0) {
   if (scratch_.crossing_of_edge.size() < at(body.half_edge_count()))
     scratch_.crossing_of_edge.resize(at(body.half_edge_count()));
   if (scratch_.last_chord_in.size() < at(body.facet_count()))
     scratch_.last_chord_in.resize(at(body.facet_count()));
   scratch_.facets_with_chord.start(body.facet_count());
-  for (int c = 0; c < std::ssize(section.crossings); ++c) {
-    const Crossing& crossing = section.crossings[at(c)];
+  for (const CrossingId c : section.crossings.ids()) {
+    const Crossing& crossing = section.crossings[c];
     scratch_.crossing_of_edge[crossing.edge] = c;
-    previous_[at(crossing.next)] = c;
+    previous_[crossing.next] = c;
     const BodyFacetId f = body.facet_of(crossing.edge);
-    if (!scratch_.facets_with_chord.insert(f)) next_in_facet_[at(c)] = scratch_.last_chord_in[f];
+    if (!scratch_.facets_with_chord.insert(f)) next_in_facet_[c] = scratch_.last_chord_in[f];
     scratch_.last_chord_in[f] = c;
   }
-  for (int r = 0; r < std::ssize(section.regions); ++r)
-    for (const int l : section.regions[at(r)].loops)
-      region_of_[at(l)][section.regions[at(r)].is_material ? 1 : 0] = r;
+  for (const RegionId r : section.regions.ids())
+    for (const SectionLoopId l : section.regions[r].loops)
+      region_of_[l][section.regions[r].is_material ? 1 : 0] = r;
 }
 
-Lump LumpFinder::find(int region) {
-  ORIEL_ASSERT(at(region) < section_.regions.size());
-  const Region& start = section_.regions[at(region)];
+Lump LumpFinder::find(RegionId region) {
+  const Region& start = section_.regions[region];
   is_material_ = start.is_material;
   ++stamp_;
   scratch_.flooded_edges.start(body_.half_edge_count());
@@ -47,7 +46,7 @@ Lump LumpFinder::find(int region) {
   facets_.clear();
   patch_volume_ = 0;
   lump_ = {};
-  for (const int l : start.loops) push(section_.crossings[at(section_.loops[at(l)].first)].edge);
+  for (const SectionLoopId l : start.loops) push(section_.crossings[section_.loops[l].first].edge);
   do {
     while (!stack_.empty()) {
       const EdgeId e = stack_.back();
@@ -59,17 +58,17 @@ Lump LumpFinder::find(int region) {
     tie_enclosed_loops();
     // A region that was reached is a contact as a whole: the loops inside it belong to the lump
     // too.
-    for (const int r : lump_.regions)
-      for (const int l : section_.regions[at(r)].loops)
-        push(section_.crossings[at(section_.loops[at(l)].first)].edge);
+    for (const RegionId r : lump_.regions)
+      for (const SectionLoopId l : section_.regions[r].loops)
+        push(section_.crossings[section_.loops[l].first].edge);
   } while (!stack_.empty());
 
   std::ranges::sort(lump_.regions);
   const PlaneSide looking = section_.looking();
   double cap_area = 0;
-  for (const int r : lump_.regions) {
-    cap_area += section_.regions[at(r)].area;
-    lump_.new_area += section_.regions[at(r)].new_area;
+  for (const RegionId r : lump_.regions) {
+    cap_area += section_.regions[r].area;
+    lump_.new_area += section_.regions[r].new_area;
   }
   lump_.volume = (is_material_ ? 1 : -1) * patch_volume_ -
                  body_.world().planes.offset_m(looking) * cap_area / 3;
@@ -99,12 +98,12 @@ void LumpFinder::visit(EdgeId e) {
   push(is_up(body_.origin(before)) ? before : body_.twin(before));
 }
 
-void LumpFinder::reach(int c) {
-  if (c < 0) lump_.is_sound = false;
-  if (c < 0 || crossing_stamp_[at(c)] == stamp_) return;
-  crossing_stamp_[at(c)] = stamp_;
-  const Crossing& crossing = section_.crossings[at(c)];
-  const Crossing& partner = section_.crossings[at(crossing.next)];
+void LumpFinder::reach(CrossingId c) {
+  if (!c.is_valid()) lump_.is_sound = false;
+  if (!c.is_valid() || crossing_stamp_[c] == stamp_) return;
+  crossing_stamp_[c] = stamp_;
+  const Crossing& crossing = section_.crossings[c];
+  const Crossing& partner = section_.crossings[crossing.next];
   const EdgeId up = body_.twin(crossing.edge);
   add_segment(crossing.edge, body_.at(crossing.edge), crossing.at);
   add_segment(crossing.edge, crossing.at, partner.at);
@@ -112,8 +111,8 @@ void LumpFinder::reach(int c) {
   push(partner.edge);
 
   if (!has_sound_pieces(c)) lump_.is_sound = false;
-  const int region = region_of_[at(crossing.loop)][is_material_ ? 1 : 0];
-  if (region < 0)
+  const RegionId region = region_of_[crossing.loop][is_material_ ? 1 : 0];
+  if (!region.is_valid())
     lump_.is_finite = false;
   else if (std::ranges::find(lump_.regions, region) == lump_.regions.end())
     lump_.regions.push_back(region);
@@ -123,14 +122,14 @@ void LumpFinder::reach(int c) {
 /// if the outline does not lead back to c over edges that the section crosses, as of a folded
 /// facet.
 template <class Visit>
-bool LumpFinder::visit_piece(int c, Visit visit) const {
-  const int start = c;
+bool LumpFinder::visit_piece(CrossingId c, Visit visit) const {
+  const CrossingId start = c;
   std::size_t chords = 0;
   do {
-    visit(section_.crossings[at(c)].at);
-    c = section_.crossings[at(c)].next;
-    visit(section_.crossings[at(c)].at);
-    const EdgeId first = body_.next(body_.twin(section_.crossings[at(c)].edge));
+    visit(section_.crossings[c].at);
+    c = section_.crossings[c].next;
+    visit(section_.crossings[c].at);
+    const EdgeId first = body_.next(body_.twin(section_.crossings[c].edge));
     EdgeId e = first;
     for (; e.is_valid() && is_up(body_.target(e)); e = body_.next(e)) {
       visit(body_.at(e));
@@ -139,18 +138,18 @@ bool LumpFinder::visit_piece(int c, Visit visit) const {
     if (!e.is_valid()) return false;
     visit(body_.at(e));
     c = crossing_of(e);
-  } while (c >= 0 && c != start && ++chords < section_.crossings.size());
+  } while (c.is_valid() && c != start && ++chords < section_.crossings.size());
   return c == start;
 }
 
 /// The same of the piece below the chord.
 template <class Visit>
-bool LumpFinder::visit_lower_piece(int c, Visit visit) const {
-  const int start = c;
+bool LumpFinder::visit_lower_piece(CrossingId c, Visit visit) const {
+  const CrossingId start = c;
   std::size_t chords = 0;
   do {
-    visit(section_.crossings[at(c)].at);
-    const EdgeId first = body_.next(section_.crossings[at(c)].edge);
+    visit(section_.crossings[c].at);
+    const EdgeId first = body_.next(section_.crossings[c].edge);
     EdgeId e = first;
     for (; e.is_valid() && !is_up(body_.target(e)); e = body_.next(e)) {
       visit(body_.at(e));
@@ -158,19 +157,19 @@ bool LumpFinder::visit_lower_piece(int c, Visit visit) const {
     }
     if (!e.is_valid()) return false;
     visit(body_.at(e));
-    const int end = crossing_of(body_.twin(e));
-    if (end < 0) return false;
-    visit(section_.crossings[at(end)].at);
-    c = previous_[at(end)];
-  } while (c >= 0 && c != start && ++chords < section_.crossings.size());
+    const CrossingId end = crossing_of(body_.twin(e));
+    if (!end.is_valid()) return false;
+    visit(section_.crossings[end].at);
+    c = previous_[end];
+  } while (c.is_valid() && c != start && ++chords < section_.crossings.size());
   return c == start;
 }
 
 /// The pieces of the facet on both sides of the chord have area.
-bool LumpFinder::has_sound_pieces(int c) const {
-  const BodyFacetId f = body_.facet_of(section_.crossings[at(c)].edge);
+bool LumpFinder::has_sound_pieces(CrossingId c) const {
+  const BodyFacetId f = body_.facet_of(section_.crossings[c].edge);
   const Vec3 normal = body_.world().planes.normal(body_.facet(f).side);
-  const Vec3 start = section_.crossings[at(c)].at;
+  const Vec3 start = section_.crossings[c].at;
   const auto area_of = [&](auto visit_points) {
     Vec3 sum, from;
     visit_points([&](Vec3 p) {
@@ -192,10 +191,10 @@ bool LumpFinder::has_sound_pieces(int c) const {
   const double upper_area = area_of(upper);
   if (!is_whole) return false;
   // In a facet with one loop and one chord the other piece is what is left.
-  const bool is_only_chord = scratch_.last_chord_in[f] == c && next_in_facet_[at(c)] < 0;
+  const bool is_only_chord = scratch_.last_chord_in[f] == c && !next_in_facet_[c].is_valid();
   if (is_only_chord && body_.facet(f).loops.size() == 1 && upper_area > 0 &&
       body_.area(f) - upper_area >
-          -kThin_m * length(section_.crossings[at(section_.crossings[at(c)].next)].at - start))
+          -kThin_m * length(section_.crossings[section_.crossings[c].next].at - start))
     return true;
   return is_sound(upper_area, upper) && is_sound(area_of(lower), lower) && is_whole;
 }
@@ -240,13 +239,13 @@ void LumpFinder::tie_loop_to_piece(BodyFacetId facet, LoopId loop) {
   const EdgeId first = body_.loop(loop).first;
   const bool has_loop = is_reached(first);
   const Vec3 normal = body_.world().planes.normal(body_.facet(facet).side);
-  for (int c = scratch_.last_chord_in[facet]; c >= 0; c = next_in_facet_[at(c)]) {
-    const bool has_piece = crossing_stamp_[at(c)] == stamp_;
+  for (CrossingId c = scratch_.last_chord_in[facet]; c.is_valid(); c = next_in_facet_[c]) {
+    const bool has_piece = crossing_stamp_[c] == stamp_;
     if (has_piece == has_loop) continue;
     Outline piece;
     const bool is_whole = visit_piece(c, [&](Vec3 p) { piece.push_back(p); });
     if (!is_whole || !contains({&piece, 1}, normal, body_.at(first))) continue;
-    push(has_piece ? first : section_.crossings[at(c)].edge);
+    push(has_piece ? first : section_.crossings[c].edge);
     return;
   }
 }

@@ -11,15 +11,18 @@
 
 namespace oriel::detail {
 
+/// One of the pockets that were found in a body.
+using PocketId = Id<struct PocketTag>;
+
 /// A connected piece of material (or air) in front of a section plane: what a cut there would split
 /// off.
 struct Lump {
-  boost::container::small_vector<int, 2>
+  boost::container::small_vector<RegionId, 2>
       regions;  ///< of the section, ascending: all its contacts with the plane
   double new_area = 0;
   double volume = 0;
-  double value = 0;  ///< the key that the order sorts it by
-  int pocket = -1;   ///< its number among the pockets, if it is one that was looked for
+  double value = 0;      ///< the key that the order sorts it by
+  PocketId pocket = {};  ///< if it is one that was looked for
   /// Its value is like that of no other lump of its section: it is congruent to none.
   bool is_alone = false;
   /// Of air: it does not run out into the open. Material is always finite.
@@ -40,32 +43,31 @@ class LumpFinder {
 
   /// The lump in front of region `region`. One that is not finite or not sound is given up as soon
   /// as that is seen: the rest of it is not looked at.
-  [[nodiscard]] Lump find(int region);
+  [[nodiscard]] Lump find(RegionId region);
   /// The half-edges that the last lump was found by.
   [[nodiscard]] std::int64_t steps() const { return steps_; }
 
  private:
   void push(EdgeId e);
   void visit(EdgeId e);
-  void reach(int crossing);
-  [[nodiscard]] bool has_sound_pieces(int crossing) const;
+  void reach(CrossingId crossing);
+  [[nodiscard]] bool has_sound_pieces(CrossingId crossing) const;
   void add_segment(EdgeId e, Vec3 from, Vec3 to);
   void tie_enclosed_loops();
   void tie_loop_to_piece(BodyFacetId facet, LoopId loop);
   [[nodiscard]] bool is_wholly_up(LoopId loop) const;
   template <class Visit>
-  bool visit_piece(int crossing, Visit visit) const;
+  bool visit_piece(CrossingId crossing, Visit visit) const;
   template <class Visit>
-  bool visit_lower_piece(int crossing, Visit visit) const;
+  bool visit_lower_piece(CrossingId crossing, Visit visit) const;
   [[nodiscard]] bool is_up(PointId point) const {
     return (ranks_[point] - plane_rank_) * section_.direction > 0;
   }
-  /// -1: the section does not cross the edge, of which an earlier one may have left a number.
-  [[nodiscard]] int crossing_of(EdgeId e) const {
-    const int c = scratch_.crossing_of_edge[e];
-    const bool is_here = c >= 0 && c < std::ssize(section_.crossings) &&
-                         section_.crossings[static_cast<std::size_t>(c)].edge == e;
-    return is_here ? c : -1;
+  /// Invalid: the section does not cross the edge, of which an earlier one may have left a number.
+  [[nodiscard]] CrossingId crossing_of(EdgeId e) const {
+    const CrossingId c = scratch_.crossing_of_edge[e];
+    const bool is_here = section_.crossings.contains(c) && section_.crossings[c].edge == e;
+    return is_here ? c : CrossingId{};
   }
   [[nodiscard]] bool is_reached(EdgeId e) const { return scratch_.flooded_edges.contains(e); }
 
@@ -74,16 +76,18 @@ class LumpFinder {
   PointRanks ranks_;
   int plane_rank_;
   Scratch& scratch_;
-  std::vector<int> next_in_facet_;  ///< of crossings where a chord begins: another in its facet
-  std::vector<int> previous_;       ///< where the chord that ends at a crossing begins
-  /// For each loop the region of air and of material that it bounds, -1: none.
-  std::vector<std::array<int, 2>> region_of_;
+  IndexedVector<CrossingId, CrossingId>
+      next_in_facet_;  ///< of crossings where a chord begins: another in its facet
+  IndexedVector<CrossingId, CrossingId>
+      previous_;  ///< where the chord that ends at a crossing begins
+  /// For each loop the region of air and of material that it bounds.
+  IndexedVector<SectionLoopId, std::array<RegionId, 2>> region_of_;
 
   // The flood at hand.
   bool is_material_ = true;
   int stamp_ = 0;
   std::int64_t steps_ = 0;
-  std::vector<int> crossing_stamp_;
+  IndexedVector<CrossingId, int> crossing_stamp_;
   std::vector<EdgeId> stack_;
   std::vector<BodyFacetId> facets_;
   double patch_volume_ = 0;

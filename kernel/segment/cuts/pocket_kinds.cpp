@@ -35,7 +35,7 @@ bool Pockets::is_like(const PocketKind& kind, Pocket& pocket, const Section& sec
                   std::llround(difference.z / grid_m)};
   if (!is_moved(kind.cap, kind.cap, pocket.shift)) return false;
   const Vec3 shift = in_metres(pocket.shift);
-  const Vec3 from = body_.at(edges_[at(pockets_[at(kind.first)].first_edge)]) + shift;
+  const Vec3 from = body_.at(edges_[at(pockets_[kind.first].first_edge)]) + shift;
   const auto start =
       std::ranges::find_if(rim_, [&](EdgeId e) { return is_same_place(body_.at(e) - from); });
   return start != rim_.end() && walk_like(kind, *start, shift) &&
@@ -51,7 +51,7 @@ bool Pockets::walk_like(const PocketKind& kind, EdgeId start, Vec3 shift) {
   is_found.insert(wall_);
   walk_.clear();
   facets_.clear();
-  const auto model = edges_of(pockets_[at(kind.first)]);
+  const auto model = edges_of(pockets_[kind.first]);
   std::span<const int> loops = kind.loops;
   for (std::size_t f = 0; f < kind.sizes.size(); ++f) {
     const EdgeId e = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
@@ -107,7 +107,7 @@ bool Pockets::are_corners_like(const PocketKind& kind, Vec3 shift, const Section
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int limit = planes.rank_of(section.plane) * section.direction;
-  const auto edges = edges_of(pockets_[at(kind.first)]);
+  const auto edges = edges_of(pockets_[kind.first]);
   return std::ranges::all_of(kind.corners, [&](const PocketCorner& corner) {
     const EdgeId e = walk_[at(corner.edge)];
     return is_same_place(body_.at(e) - body_.at(edges[at(corner.edge)]) - shift) &&
@@ -117,7 +117,7 @@ bool Pockets::are_corners_like(const PocketKind& kind, Vec3 shift, const Section
 
 /// The planes are those of the kind, moved, and the facets are made of as many of the solid's.
 bool Pockets::are_facets_like(const PocketKind& kind, const Pocket& pocket) {
-  const auto edges = edges_of(pockets_[at(kind.first)]);
+  const auto edges = edges_of(pockets_[kind.first]);
   std::size_t i = 0;
   return std::ranges::all_of(kind.sizes, [&](int size) {
     const auto &one = body_.facet(body_.facet_of(edges[i])),
@@ -140,25 +140,24 @@ bool Pockets::is_moved(PlaneSide from, PlaneSide to,
   return from == to || (from >> 1 != ground_plane_ && to >> 1 != ground_plane_);
 }
 
-/// The pocket at hand is the first of its kind; -1 if it is none.
-int Pockets::new_kind(const Section& section, const Region& region) {
+/// The pocket at hand is the first of its kind; invalid if it is none.
+PocketKindId Pockets::new_kind(const Section& section, const Region& region) {
   PocketKind kind;
   constexpr std::size_t kFacets = 8;  // a window has no more, mostly
   kind.sizes.reserve(kFacets);
   kind.loops.reserve(kFacets);
   kind.entries.reserve(kFacets);
   kind.twins.reserve(4 * kFacets);
-  if (!list_facets(section, kind)) return -1;
+  if (!list_facets(section, kind)) return {};
   kind.cap = section.split_side(region);
   kind.direction = section.direction;
-  kind.first = static_cast<int>(pockets_.size());
+  kind.first = pockets_.next_id();
   kind.corner = corner_;
   kind.rim = static_cast<int>(rim_.size());
   list_corners(kind);
   kind.is_convex = is_convex_pocket(kind, walk_, !region.is_material);
   judge(kind, !region.is_material);
-  kinds_.push_back(std::move(kind));
-  return static_cast<int>(kinds_.size()) - 1;
+  return kinds_.push_back(std::move(kind));
 }
 
 void Pockets::list_corners(PocketKind& kind) {
@@ -210,12 +209,12 @@ void Pockets::judge(PocketKind& kind, bool is_hole) const {
   }
 }
 
-std::optional<Pockets::FloodedPocket> Pockets::flooded(int pocket, const Section& section,
+std::optional<Pockets::FloodedPocket> Pockets::flooded(PocketId pocket, const Section& section,
                                                        const Region& region) const {
-  const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+  const PocketKind& kind = kinds_[pockets_[pocket].kind];
   if (kind.is_unclear) return std::nullopt;
   const auto& planes = body_.world().planes;
-  const auto edges = edges_of(pockets_[at(pocket)]);
+  const auto edges = edges_of(pockets_[pocket]);
   double sum = 0;
   std::size_t first = 0;
   for (const int size : kind.sizes) {

@@ -20,58 +20,58 @@ bool is_of_pocket(const Region& region) {
 }  // namespace
 
 void Pockets::changed(std::span<const RestChange> changes) {
-  order_.pocket = -1;
+  order_.pocket = {};
   StampSet<PointId>& is_touched = body_.world().scratch.met_points;
   is_touched.start(body_.world().points.size());
   for (const RestChange& change : changes)
     for (const PointId p : change.points) is_touched.insert(p);
   const auto has_gone = [&](const Pocket& pocket) {
     const auto edges = edges_of(pocket);
-    return std::ranges::any_of(kinds_[at(pocket.kind)].corners, [&](const PocketCorner& corner) {
+    return std::ranges::any_of(kinds_[pocket.kind].corners, [&](const PocketCorner& corner) {
       return is_touched.contains(body_.origin(edges[at(corner.edge)]));
     });
   };
   for (PocketKind& kind : kinds_)
-    if (kind.cap >= 0 && has_gone(pockets_[at(kind.first)])) kind.cap = -1;
+    if (kind.cap >= 0 && has_gone(pockets_[kind.first])) kind.cap = -1;
   for (Pocket& pocket : pockets_)
-    if (pocket.kind >= 0 && (kinds_[at(pocket.kind)].cap < 0 || has_gone(pocket))) pocket.kind = -1;
+    if (pocket.kind.is_valid() && (kinds_[pocket.kind].cap < 0 || has_gone(pocket)))
+      pocket.kind = {};
 }
 
 /// The pocket that was found in front of a region, when the body was the same there.
-int Pockets::find_known(const Section& section, const Region& region) const {
-  if (!is_of_pocket(region)) return -1;
-  const int known =
-      at_edge_.find(section.crossings[at(section.loops[at(region.loops[0])].first)].edge);
-  if (known < 0 || pockets_[at(known)].kind < 0) return -1;
-  const PocketKind& kind = kinds_[at(pockets_[at(known)].kind)];
+PocketId Pockets::find_known(const Section& section, const Region& region) const {
+  if (!is_of_pocket(region)) return {};
+  const PocketId known =
+      at_edge_.find(section.crossings[section.loops[region.loops[0]].first].edge);
+  if (!known.is_valid() || !pockets_[known].kind.is_valid()) return {};
+  const PocketKind& kind = kinds_[pockets_[known].kind];
   const bool is_of_section =
       kind.cap == section.split_side(region) && kind.direction == section.direction;
-  return is_of_section ? known : -1;
+  return is_of_section ? known : PocketId{};
 }
 
-int Pockets::find(const Section& section, int region, bool is_alone) {
-  const Region& here = section.regions[at(region)];
-  if (const int known = find_known(section, here); known >= 0) return known;
-  if (!trace_rim(section, here)) return -1;
+PocketId Pockets::find(const Section& section, RegionId region, bool is_alone) {
+  const Region& here = section.regions[region];
+  if (const PocketId known = find_known(section, here); known.is_valid()) return known;
+  if (!trace_rim(section, here)) return {};
   Pocket pocket;
   const PlaneSide cap = section.split_side(here);
-  for (int k = 0; !is_alone && k < std::ssize(kinds_) && pocket.kind < 0; ++k)
-    if (kinds_[at(k)].cap == cap && kinds_[at(k)].direction == section.direction &&
-        is_like(kinds_[at(k)], pocket, section))
+  for (PocketKindId k{0}; !is_alone && kinds_.contains(k) && !pocket.kind.is_valid(); ++k.value)
+    if (kinds_[k].cap == cap && kinds_[k].direction == section.direction &&
+        is_like(kinds_[k], pocket, section))
       pocket.kind = k;
-  if (pocket.kind < 0) {
+  if (!pocket.kind.is_valid()) {
     pocket.kind = new_kind(section, here);
-    if (pocket.kind < 0) return -1;
+    if (!pocket.kind.is_valid()) return {};
     pocket.shift = {};
   }
   pocket.first_edge = static_cast<int>(edges_.size());
   pocket.first_rim = static_cast<int>(rims_.size());
   edges_.insert(edges_.end(), walk_.begin(), walk_.end());
   rims_.insert(rims_.end(), rim_.begin(), rim_.end());
-  const int number = static_cast<int>(pockets_.size());
-  pockets_.push_back(pocket);
+  const PocketId number = pockets_.push_back(pocket);
   at_edge_.make_room(body_.half_edge_count());
-  at_edge_.set(section.crossings[at(section.loops[at(here.loops[0])].first)].edge, number);
+  at_edge_.set(section.crossings[section.loops[here.loops[0]].first].edge, number);
   return number;
 }
 
@@ -86,12 +86,12 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
   rim_edges.start(body_.half_edge_count());
   rim_.clear();
   Box box;
-  const int first = section.loops[at(region.loops[0])].first;
-  int c = first;
+  const CrossingId first = section.loops[region.loops[0]].first;
+  CrossingId c = first;
   do {
-    const EdgeId e = body_.next(section.crossings[at(c)].edge);
-    c = section.crossings[at(c)].next;
-    if (body_.next(e) != body_.twin(section.crossings[at(c)].edge)) return false;
+    const EdgeId e = body_.next(section.crossings[c].edge);
+    c = section.crossings[c].next;
+    if (body_.next(e) != body_.twin(section.crossings[c].edge)) return false;
     if (ranks[body_.origin(e)] != rank || ranks[body_.target(e)] != rank) return false;
     const EdgeId beyond = body_.twin(e);
     if (!rim_.empty() && body_.next(beyond) != body_.twin(rim_.back())) return false;
@@ -180,12 +180,12 @@ bool Pockets::has_own_sources() {
 }
 
 std::span<const EdgeId> Pockets::edges_of(const Pocket& pocket) const {
-  return std::span(edges_).subspan(at(pocket.first_edge), kinds_[at(pocket.kind)].twins.size());
+  return std::span(edges_).subspan(at(pocket.first_edge), kinds_[pocket.kind].twins.size());
 }
 
-CutCap Pockets::cap_of(int pocket) const {
-  const Pocket& here = pockets_[at(pocket)];
-  const PocketKind& kind = kinds_[at(here.kind)];
+CutCap Pockets::cap_of(PocketId pocket) const {
+  const Pocket& here = pockets_[pocket];
+  const PocketKind& kind = kinds_[here.kind];
   CutCap cap{kind.cap, {}, {}};
   CapLoop& loop = cap.loops.emplace_back();
   loop.edges.reserve(at(kind.rim));
@@ -194,10 +194,11 @@ CutCap Pockets::cap_of(int pocket) const {
   return cap;
 }
 
-PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, bool is_hole) const {
+PocketLeaf Pockets::leaf_of(PocketId pocket, std::span<const BodyFacetId> facets,
+                            bool is_hole) const {
   ORIEL_ASSERT(is_leaf(kind_of(pocket)));
   // Facet by facet and edge by edge as take_off() makes a body of it.
-  const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+  const PocketKind& kind = kinds_[pockets_[pocket].kind];
   const int flip = is_hole ? 1 : 0;
   PocketLeaf leaf;
   leaf.faces.reserve(kind.sizes.size() + 1);
@@ -215,7 +216,7 @@ PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, boo
       e = is_hole ? body_.prev(e) : body_.next(e);
     } while (e != first);
   }
-  const auto rim = std::span(rims_).subspan(at(pockets_[at(pocket)].first_rim), at(kind.rim));
+  const auto rim = std::span(rims_).subspan(at(pockets_[pocket].first_rim), at(kind.rim));
   PocketLeaf::LeafFace& cap = leaf.faces.emplace_back(kind.cap ^ flip ^ 1, Loop{});
   cap.loop.reserve(rim.size());
   for (const EdgeId e : rim)
@@ -224,9 +225,9 @@ PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, boo
   return leaf;
 }
 
-std::vector<PointId> Pockets::points_of(int pocket) const {
-  const auto edges = edges_of(pockets_[at(pocket)]);
-  const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+std::vector<PointId> Pockets::points_of(PocketId pocket) const {
+  const auto edges = edges_of(pockets_[pocket]);
+  const PocketKind& kind = kinds_[pockets_[pocket].kind];
   std::vector<PointId> points;
   points.reserve(kind.corners.size());
   for (const PocketCorner& corner : kind.corners)
@@ -235,9 +236,9 @@ std::vector<PointId> Pockets::points_of(int pocket) const {
   return points;
 }
 
-std::vector<BodyFacetId> Pockets::facets_of(int pocket) const {
-  const Pocket& here = pockets_[at(pocket)];
-  const PocketKind& kind = kinds_[at(here.kind)];
+std::vector<BodyFacetId> Pockets::facets_of(PocketId pocket) const {
+  const Pocket& here = pockets_[pocket];
+  const PocketKind& kind = kinds_[here.kind];
   std::vector<BodyFacetId> facets;
   facets.reserve(kind.sizes.size());
   int i = here.first_edge;
@@ -249,9 +250,9 @@ std::vector<BodyFacetId> Pockets::facets_of(int pocket) const {
   return facets;
 }
 
-Pockets::PocketOrder Pockets::order_of(int pocket) const {
-  const Pocket& here = pockets_[at(pocket)];
-  const PocketKind& kind = kinds_[at(here.kind)];
+Pockets::PocketOrder Pockets::order_of(PocketId pocket) const {
+  const Pocket& here = pockets_[pocket];
+  const PocketKind& kind = kinds_[here.kind];
   const auto edges = edges_of(here);
   PocketOrder order{pocket, {}, {}, {}};
   order.points.reserve(kind.corners.size());
@@ -276,10 +277,10 @@ Pockets::PocketOrder Pockets::order_of(int pocket) const {
   return order;
 }
 
-Congruence Pockets::congruence(int model, int other) const {
+Congruence Pockets::congruence(PocketId model, PocketId other) const {
   ORIEL_ASSERT(kind_of(model) == kind_of(other), "only pockets of one kind are congruent");
   if (order_.pocket != model) order_ = order_of(model);
-  const Pocket &one = pockets_[at(model)], &two = pockets_[at(other)];
+  const Pocket &one = pockets_[model], &two = pockets_[other];
   Congruence how;
   for (std::size_t i = 0; i < 3; ++i) how.shift[i] = two.shift[i] - one.shift[i];
   how.shift_m = in_metres(how.shift);

@@ -16,6 +16,9 @@
 
 namespace oriel::detail {
 
+/// What congruent pockets are: Pockets::kind_of.
+using PocketKindId = Id<struct PocketKindTag>;
+
 /// Finds pockets: lumps that leave nothing but a ring in the facet they are in (or on), a window in
 /// its wall. Equal windows are the same pocket moved, so of those of one kind one is flooded, and
 /// one is made a body; of the others it is known what would become of them.
@@ -32,42 +35,42 @@ class Pockets {
   /// point of stay known, with their numbers.
   void changed(std::span<const RestChange> changes);
 
-  /// The number of the pocket in front of a region; -1 if the lump there is none. Of one that
+  /// The pocket in front of a region; invalid if the lump there is none. Of one that
   /// `is_alone` it is not asked whether it is of a kind that is known.
-  int find(const Section& section, int region, bool is_alone);
+  PocketId find(const Section& section, RegionId region, bool is_alone);
   /// What a flood from the region of a pocket finds, which is sound and finite; nothing if only a
   /// flood can tell.
   struct FloodedPocket {
     double volume;
     bool has_bend;
   };
-  [[nodiscard]] std::optional<FloodedPocket> flooded(int pocket, const Section& section,
+  [[nodiscard]] std::optional<FloodedPocket> flooded(PocketId pocket, const Section& section,
                                                      const Region& region) const;
 
-  [[nodiscard]] int kind_count() const { return static_cast<int>(kinds_.size()); }
+  [[nodiscard]] std::size_t kind_count() const { return kinds_.size(); }
   /// Pockets of one kind lie in front of one section and are congruent, in all that a segmentation
   /// asks for (find_congruence).
-  [[nodiscard]] int kind_of(int pocket) const { return pockets_[index(pocket)].kind; }
+  [[nodiscard]] PocketKindId kind_of(PocketId pocket) const { return pockets_[pocket].kind; }
   /// As a body of its own it has no reflex edge for certain, and more than two facets meet in all
   /// its vertices: leaf_of() tells what it becomes.
-  [[nodiscard]] bool is_leaf(int kind) const { return kinds_[index(kind)].is_leaf; }
+  [[nodiscard]] bool is_leaf(PocketKindId kind) const { return kinds_[kind].is_leaf; }
 
   /// What a pocket that is_leaf() becomes, but for its volume; `facets` are its facets_of(). Needs
   /// the body as it was.
-  [[nodiscard]] PocketLeaf leaf_of(int pocket, std::span<const BodyFacetId> facets,
+  [[nodiscard]] PocketLeaf leaf_of(PocketId pocket, std::span<const BodyFacetId> facets,
                                    bool is_hole) const;
   /// Its vertices, sorted; needs the body as it was.
-  [[nodiscard]] std::vector<PointId> points_of(int pocket) const;
+  [[nodiscard]] std::vector<PointId> points_of(PocketId pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
-  [[nodiscard]] CutCap cap_of(int pocket) const;
+  [[nodiscard]] CutCap cap_of(PocketId pocket) const;
   /// Its facets, ascending.
-  [[nodiscard]] std::vector<BodyFacetId> facets_of(int pocket) const;
+  [[nodiscard]] std::vector<BodyFacetId> facets_of(PocketId pocket) const;
   /// How one pocket is another one of its kind, moved; needs both as they were in the body.
-  [[nodiscard]] Congruence congruence(int model, int other) const;
+  [[nodiscard]] Congruence congruence(PocketId model, PocketId other) const;
 
  private:
   struct Pocket {
-    int kind = -1;                           ///< -1: it has gone
+    PocketKindId kind = {};                  ///< invalid: it has gone
     int first_edge = 0, first_rim = 0;       ///< in edges_, rims_
     std::array<std::int64_t, 3> shift = {};  ///< from the first of its kind, in grid units
   };
@@ -85,7 +88,7 @@ class Pockets {
     bool is_convex = false, is_leaf = false;
     /// Its lump has a bend, and has to be flooded.
     bool has_bend = false, is_unclear = false;
-    int first = -1;            ///< the first pocket
+    PocketId first = {};       ///< the first pocket
     Vec3 corner;               ///< the lowest of the box of its rim
     std::vector<int> sizes;    ///< of the facets, in half-edges
     std::vector<int> loops;    ///< the same of their loops
@@ -96,15 +99,14 @@ class Pockets {
   };
   /// The vertices, planes and sources of a pocket in the order in which maps from it list them.
   struct PocketOrder {
-    int pocket = -1;
+    PocketId pocket = {};
     std::vector<std::pair<PointId, int>> points;  ///< with a half-edge that begins there
     std::vector<std::pair<int, int>> planes;      ///< with a half-edge of a facet; -1: the cap's
     std::vector<std::tuple<FacetId, int, int>>
         sources;  ///< with a half-edge of their facet, and their place
   };
 
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  [[nodiscard]] int find_known(const Section& section, const Region& region) const;
+  [[nodiscard]] PocketId find_known(const Section& section, const Region& region) const;
   bool trace_rim(const Section& section, const Region& region);
   [[nodiscard]] bool is_rim(EdgeId e) const { return body_.world().scratch.rim_edges.contains(e); }
   [[nodiscard]] bool is_like(const PocketKind& kind, Pocket& pocket, const Section& section);
@@ -119,7 +121,7 @@ class Pockets {
   [[nodiscard]] bool has_own_sources();
   [[nodiscard]] bool is_moved(PlaneSide from, PlaneSide to,
                               const std::array<std::int64_t, 3>& shift) const;
-  int new_kind(const Section& section, const Region& region);
+  PocketKindId new_kind(const Section& section, const Region& region);
   bool list_facets(const Section& section, PocketKind& kind);
   bool list_facet(PocketKind& kind, EdgeId first);
   void list_loop(PocketKind& kind, EdgeId first);
@@ -129,15 +131,15 @@ class Pockets {
                                       bool is_hole) const;
   [[nodiscard]] std::span<const EdgeId> edges_of(const Pocket& pocket) const;
   [[nodiscard]] Vec3 in_metres(const std::array<std::int64_t, 3>& shift) const;
-  [[nodiscard]] PocketOrder order_of(int pocket) const;
+  [[nodiscard]] PocketOrder order_of(PocketId pocket) const;
 
   const Boundary& body_;
   int ground_plane_;
-  std::vector<Pocket> pockets_;
-  std::vector<PocketKind> kinds_;
-  std::vector<EdgeId> edges_, rims_;  ///< of the pockets
-  StampMap<EdgeId> at_edge_;          ///< pockets, by the first crossing of their regions
-  mutable PocketOrder order_;         ///< of the model that was asked for last
+  IndexedVector<PocketId, Pocket> pockets_;
+  IndexedVector<PocketKindId, PocketKind> kinds_;
+  std::vector<EdgeId> edges_, rims_;    ///< of the pockets
+  StampMap<EdgeId, PocketId> at_edge_;  ///< pockets, by the first crossing of their regions
+  mutable PocketOrder order_;           ///< of the model that was asked for last
 
   // The pocket at hand.
   std::vector<EdgeId> rim_, walk_;

@@ -8,18 +8,17 @@ namespace oriel::detail {
 
 namespace {
 
-/// The first region of the kind that has the point inside.
-std::optional<int> region_around(const Boundary& body, const Section& section, bool is_material,
-                                 Vec3 point) {
+/// The first region of the kind that has the point inside, if any.
+RegionId region_around(const Boundary& body, const Section& section, bool is_material, Vec3 point) {
   const Vec3 normal = body.world().planes.plane(section.plane).normal;
-  for (int r = 0; r < std::ssize(section.regions); ++r) {
-    const Region& region = section.regions[at(r)];
+  for (const RegionId r : section.regions.ids()) {
+    const Region& region = section.regions[r];
     if (region.is_material != is_material) continue;
     std::vector<Outline> shape;
-    for (const int l : region.loops) shape.push_back(outline_of(section, l));
+    for (const SectionLoopId l : region.loops) shape.push_back(outline_of(section, l));
     if (contains(shape, normal, point)) return r;
   }
-  return std::nullopt;
+  return {};
 }
 
 /// One half-edge of each edge that has one end in front of the plane and one not.
@@ -45,8 +44,8 @@ std::optional<FeatureCut> find_feature_cut(const Boundary& body, int plane, int 
   FeatureCut cut{{plane, direction}, {}};
   section_at(body, cut.section, edges_across(body, plane, direction), options);
   const auto region = region_around(body, cut.section, is_material, point);
-  if (!region) return std::nullopt;
-  cut.lump = LumpFinder(body, cut.section).find(*region);
+  if (!region.is_valid()) return std::nullopt;
+  cut.lump = LumpFinder(body, cut.section).find(region);
   if (cut.lump.is_finite && cut.lump.is_sound) cut.caps = bare_caps(body, cut.section, cut.lump);
   return cut;
 }

@@ -17,12 +17,12 @@ namespace {
 
 /// Visits the crossings of a loop in their order.
 template <class Visit>
-void for_each_crossing(const Section& section, int loop, Visit visit) {
-  const int first = section.loops[at(loop)].first;
-  int c = first;
+void for_each_crossing(const Section& section, SectionLoopId loop, Visit visit) {
+  const CrossingId first = section.loops[loop].first;
+  CrossingId c = first;
   do {
-    visit(section.crossings[at(c)]);
-    c = section.crossings[at(c)].next;
+    visit(section.crossings[c]);
+    c = section.crossings[c].next;
   } while (c != first);
 }
 
@@ -30,11 +30,13 @@ void for_each_crossing(const Section& section, int loop, Visit visit) {
 struct LoopSize {
   double size;
   EdgeId edge;
-  int loop;
+  SectionLoopId loop;
 };
 
 /// Most sections have no more loops.
 constexpr std::size_t kFewLoops = 16;
+
+using FewRegions = boost::container::small_vector<RegionId, kFewLoops>;
 
 class LoopNester {
  public:
@@ -44,37 +46,32 @@ class LoopNester {
     sort_loops();
     find_boxes();
     outlines_.resize(section_.loops.size());
-    std::array<boost::container::small_vector<int, kFewLoops>, 2>
-        larger;  // regions around air, around material
+    std::array<FewRegions, 2> larger;  // regions around air, around material
     section_.regions.reserve(order_.size());
-    for (int i = 0; i < std::ssize(order_); ++i) {
-      const int l = order_[at(i)].loop;
-      add_region(l);
-      const bool is_material = section_.loops[at(l)].area > 0;
-      const int parent = parent_of(l, larger[is_material ? 0 : 1]);
-      larger[is_material ? 1 : 0].push_back(i);
-      if (parent < 0) continue;
-      Region& around = section_.regions[at(parent)];
+    for (const auto& [size, edge, l] : order_) {
+      const RegionId mine = add_region(l);
+      const bool is_material = section_.loops[l].area > 0;
+      const RegionId parent = parent_of(l, larger[is_material ? 0 : 1]);
+      larger[is_material ? 1 : 0].push_back(mine);
+      if (!parent.is_valid()) continue;
+      Region& around = section_.regions[parent];
       around.loops.push_back(l);
-      around.area -= order_[at(i)].size;
+      around.area -= size;
     }
   }
 
-  void add_region(int l) {
-    const double area = section_.loops[at(l)].area;
-    Region& region = section_.regions.emplace_back();
-    region.is_material = area > 0;
-    region.loops.push_back(l);
-    region.area = std::abs(area);
+  RegionId add_region(SectionLoopId l) {
+    const double area = section_.loops[l].area;
+    return section_.regions.push_back({area > 0, {l}, std::abs(area)});
   }
 
  private:
   /// The largest first.
   void sort_loops() {
     order_.reserve(section_.loops.size());
-    for (int l = 0; l < std::ssize(section_.loops); ++l) {
-      const SectionLoop& loop = section_.loops[at(l)];
-      order_.push_back({std::abs(loop.area), section_.crossings[at(loop.first)].edge, l});
+    for (const SectionLoopId l : section_.loops.ids()) {
+      const SectionLoop& loop = section_.loops[l];
+      order_.push_back({std::abs(loop.area), section_.crossings[loop.first].edge, l});
     }
     std::ranges::sort(order_, [](const LoopSize& p, const LoopSize& q) {
       return p.size != q.size ? p.size > q.size : p.edge < q.edge;
@@ -83,31 +80,31 @@ class LoopNester {
 
   void find_boxes() {
     boxes_.resize(section_.loops.size());
-    for (const Crossing& c : section_.crossings) boxes_[at(c.loop)].grow(c.at);
+    for (const Crossing& c : section_.crossings) boxes_[c.loop].grow(c.at);
   }
 
-  /// Of the smallest of the larger loops of the other kind that is around loop `l` the region; or
-  /// -1.
-  int parent_of(int l, const boost::container::small_vector<int, kFewLoops>& others) {
+  /// Of the smallest of the larger loops of the other kind that is around loop `l` the region, if
+  /// any.
+  RegionId parent_of(SectionLoopId l, const FewRegions& others) {
     for (std::size_t j = others.size(); j-- > 0;) {
-      const int outer = order_[at(others[j])].loop;
-      if (is_within(boxes_[at(l)], boxes_[at(outer)]) && is_inside(l, outer)) return others[j];
+      const SectionLoopId outer = section_.regions[others[j]].loops[0];
+      if (is_within(boxes_[l], boxes_[outer]) && is_inside(l, outer)) return others[j];
     }
-    return -1;
+    return {};
   }
 
   /// Loops do not cross, so one point tells; the middle of the figure may lie in a loop further in,
   /// so it is asked from points of the loop itself until one is clear of the outer loop's own
   /// points.
-  bool is_inside(int inner, int outer) {
-    Outline& shape = outlines_[at(outer)];
+  bool is_inside(SectionLoopId inner, SectionLoopId outer) {
+    Outline& shape = outlines_[outer];
     if (shape.empty()) shape = outline_of(section_, outer);
-    const int first = section_.loops[at(inner)].first;
-    int c = first;
+    const CrossingId first = section_.loops[inner].first;
+    CrossingId c = first;
     do {
-      const Vec3 p = section_.crossings[at(c)].at;
+      const Vec3 p = section_.crossings[c].at;
       if (std::ranges::find(shape, p) == shape.end()) return contains({&shape, 1}, axis_, p);
-      c = section_.crossings[at(c)].next;
+      c = section_.crossings[c].next;
     } while (c != first);
     const Outline points = outline_of(section_, inner);
     const auto middle = interior_point({&points, 1}, axis_);
@@ -116,10 +113,9 @@ class LoopNester {
 
   Section& section_;
   Vec3 axis_;
-  boost::container::small_vector<LoopSize, kFewLoops> order_;  ///< the loop of each region
-  boost::container::small_vector<Box, kFewLoops> boxes_;       ///< by loop
-  boost::container::small_vector<Outline, kFewLoops>
-      outlines_;  ///< by loop, filled in when asked for
+  boost::container::small_vector<LoopSize, kFewLoops> order_;
+  IndexedVector<SectionLoopId, Box> boxes_;
+  IndexedVector<SectionLoopId, Outline> outlines_;  ///< filled in when asked for
 };
 
 /// Makes the regions of a section of its loops, which do not cross. Loops nest by turns: around
@@ -128,7 +124,7 @@ class LoopNester {
 void nest_loops(Section& section, Vec3 axis) {
   LoopNester nester(section, axis);
   if (section.loops.size() == 1)
-    nester.add_region(0);
+    nester.add_region(SectionLoopId{0});
   else
     nester.run();
 }
@@ -217,11 +213,10 @@ class Sectioner {
   /// material above it to its left, from a half-edge that leads down to one that leads up.
   bool link_chords() {
     scratch_.start_chords(body_.facet_count());
-    const int count = static_cast<int>(section_.crossings.size());
-    for (int c = 0; c < count; ++c) {
-      const auto& half = body_.edge(section_.crossings[at(c)].edge);
-      add_end(half.facet, 2 * c + 1);
-      add_end(body_.facet_of(half.twin), 2 * c);
+    for (const CrossingId c : section_.crossings.ids()) {
+      const auto& half = body_.edge(section_.crossings[c].edge);
+      add_end(half.facet, 2 * c.value + 1);
+      add_end(body_.facet_of(half.twin), 2 * c.value);
     }
     for (std::size_t i = 0; i < scratch_.facets_with_several.size(); ++i)
       if (!link_in_facet(scratch_.facets_with_several[i], scratch_.chord_ends[i])) return false;
@@ -246,16 +241,16 @@ class Sectioner {
     if (here.number < 0) {
       here.number = static_cast<int>(scratch_.facets_with_several.size());
       auto& ends = scratch_.add_chord_ends(facet);
-      ends.push_back({0, here.first >> 1, (here.first & 1) != 0});
-      ends.push_back({0, here.second >> 1, (here.second & 1) != 0});
+      ends.push_back({0, CrossingId{here.first >> 1}, (here.first & 1) != 0});
+      ends.push_back({0, CrossingId{here.second >> 1}, (here.second & 1) != 0});
     }
-    scratch_.chord_ends[at(here.number)].push_back({0, end >> 1, (end & 1) != 0});
+    scratch_.chord_ends[at(here.number)].push_back({0, CrossingId{end >> 1}, (end & 1) != 0});
   }
 
   /// Makes one chord of two ends of which one begins it.
   void link(int one, int other) {
     const int begin = (one & 1) != 0 ? one : other, end = (one & 1) != 0 ? other : one;
-    section_.crossings[at(begin >> 1)].next = end >> 1;
+    section_.crossings[CrossingId{begin >> 1}].next = CrossingId{end >> 1};
   }
 
   /// Sorts the ends along the line; where edges leave one point of the plane, by where they are
@@ -263,7 +258,7 @@ class Sectioner {
   bool link_in_facet(BodyFacetId facet, std::span<ChordEnd> ends) {
     if (ends.size() % 2 != 0) return false;
     const Vec3 line = line_in(facet);
-    for (ChordEnd& end : ends) end.along = dot(line, section_.crossings[at(end.crossing)].at);
+    for (ChordEnd& end : ends) end.along = dot(line, section_.crossings[end.crossing].at);
     std::ranges::sort(ends, [](const ChordEnd& p, const ChordEnd& q) {
       if (p.along != q.along) return p.along < q.along;
       return std::pair(p.leads_down, p.crossing) < std::pair(q.leads_down, q.crossing);
@@ -279,7 +274,7 @@ class Sectioner {
     }
     for (std::size_t i = 0; i < ends.size(); i += 2) {
       if (!ends[i].leads_down || ends[i + 1].leads_down) return false;
-      section_.crossings[at(ends[i].crossing)].next = ends[i + 1].crossing;
+      section_.crossings[ends[i].crossing].next = ends[i + 1].crossing;
     }
     return true;
   }
@@ -289,31 +284,31 @@ class Sectioner {
   }
 
   [[nodiscard]] double slope(Vec3 line, const ChordEnd& end) const {
-    const Crossing& crossing = section_.crossings[at(end.crossing)];
+    const Crossing& crossing = section_.crossings[end.crossing];
     const Vec3 up = body_.at(crossing.edge) - crossing.at;
     return dot(line, up) / dot(axis_, up);
   }
 
   /// False if some crossing begins no chord.
   bool close_loops() {
-    const std::span<Crossing> crossings = section_.crossings;
-    for (int start = 0; start < std::ssize(crossings); ++start) {
-      if (crossings[at(start)].loop >= 0) continue;
-      const int number = static_cast<int>(section_.loops.size());
-      const Vec3 origin = crossings[at(start)].at;
+    auto& crossings = section_.crossings;
+    for (const CrossingId start : crossings.ids()) {
+      if (crossings[start].loop.is_valid()) continue;
+      const SectionLoopId number = section_.loops.next_id();
+      const Vec3 origin = crossings[start].at;
       Vec3 sum, from;
-      int c = start, first = start;
-      EdgeId least = crossings[at(start)].edge;
+      CrossingId c = start, first = start;
+      EdgeId least = crossings[start].edge;
       do {
-        Crossing& here = crossings[at(c)];
-        if (here.loop >= 0 || here.next < 0) return false;
+        Crossing& here = crossings[c];
+        if (here.loop.is_valid() || !here.next.is_valid()) return false;
         here.loop = number;
         if (here.edge < least) {
           least = here.edge;
           first = c;
         }
         c = here.next;
-        const Vec3 to = crossings[at(c)].at - origin;
+        const Vec3 to = crossings[c].at - origin;
         sum = sum + cross(from, to);
         from = to;
       } while (c != start);
@@ -322,13 +317,13 @@ class Sectioner {
     return true;
   }
 
-  [[nodiscard]] Outline outline(int l) const { return outline_of(section_, l); }
+  [[nodiscard]] Outline outline(SectionLoopId l) const { return outline_of(section_, l); }
 
   /// Thinner than weld_m, as a keel that touches the plane is.
-  [[nodiscard]] bool is_sliver(int l, double area) const {
+  [[nodiscard]] bool is_sliver(SectionLoopId l, double area) const {
     double around = 0;
     for_each_crossing(section_, l, [&](const Crossing& c) {
-      around += length(section_.crossings[at(c.next)].at - c.at);
+      around += length(section_.crossings[c.next].at - c.at);
     });
     return std::abs(area) < options_.weld_m * around / 2;
   }
@@ -350,9 +345,9 @@ class Sectioner {
     const PlaneSide opposite = section_.split_side(region) ^ 1;
     if (has_facets_[region.is_material ? 0 : 1]) take_off_covered(region, opposite);
     region.has_natural_outline = is_natural(region.loops[0], region);
-    region.is_natural =
-        region.has_natural_outline && std::all_of(region.loops.begin() + 1, region.loops.end(),
-                                                  [&](int l) { return is_natural(l, region); });
+    region.is_natural = region.has_natural_outline &&
+                        std::all_of(region.loops.begin() + 1, region.loops.end(),
+                                    [&](SectionLoopId l) { return is_natural(l, region); });
     region.is_candidate =
         (region.is_natural || region.new_area < old_area) &&
         ((is_known && region.covered.empty()) || !is_sliver(region.loops[0], region.new_area));
@@ -365,7 +360,7 @@ class Sectioner {
     if (std::ranges::none_of(section_.crossings, [&](const Crossing& c) { return is_dead(c); }))
       return true;
     list_by_loop();
-    std::vector<int> new_loop;
+    NewLoops new_loop;
     if (!number_living_loops(new_loop) || !drop_dead_regions(new_loop)) return false;
     drop_dead_crossings(new_loop);
     return true;
@@ -375,68 +370,75 @@ class Sectioner {
   void list_by_loop() {
     if (section_.is_by_loop) return;
     section_.is_by_loop = true;
-    std::vector<Crossing> crossings;
+    IndexedVector<CrossingId, Crossing> crossings;
     crossings.reserve(section_.crossings.size());
-    for (int l = 0; l < std::ssize(section_.loops); ++l) {
-      const int first = static_cast<int>(crossings.size());
+    for (const SectionLoopId l : section_.loops.ids()) {
+      const CrossingId first = crossings.next_id();
       for_each_crossing(section_, l, [&](const Crossing& c) {
-        crossings.push_back({c.edge, c.at, static_cast<int>(crossings.size()) + 1, l});
+        crossings.push_back({c.edge, c.at, CrossingId{crossings.next_id().value + 1}, l});
       });
-      crossings.back().next = section_.loops[at(l)].first = first;
+      crossings.back().next = section_.loops[l].first = first;
     }
-    section_.crossings.swap(crossings);
+    section_.crossings = std::move(crossings);
   }
 
-  [[nodiscard]] int end_of_loop(std::size_t l) const {
+  [[nodiscard]] CrossingId end_of_loop(SectionLoopId l) const {
     const auto& loops = section_.loops;
-    return l + 1 < loops.size() ? loops[l + 1].first : static_cast<int>(section_.crossings.size());
+    const SectionLoopId next{l.value + 1};
+    return loops.contains(next) ? loops[next].first : section_.crossings.next_id();
   }
 
-  /// -1: it is dead.
-  bool number_living_loops(std::vector<int>& new_loop) const {
+  /// By loop what it is called from then on; invalid: it is dead.
+  using NewLoops = IndexedVector<SectionLoopId, SectionLoopId>;
+
+  bool number_living_loops(NewLoops& new_loop) const {
     int living = 0;
-    for (std::size_t l = 0; l < section_.loops.size(); ++l) {
-      const int first = section_.loops[l].first, last = end_of_loop(l);
+    for (const SectionLoopId l : section_.loops.ids()) {
+      const int first = section_.loops[l].first.value, last = end_of_loop(l).value;
       int dead = 0;
-      for (int c = first; c < last; ++c) dead += is_dead(section_.crossings[at(c)]) ? 1 : 0;
+      for (int c = first; c < last; ++c) dead += is_dead(section_.crossings[CrossingId{c}]) ? 1 : 0;
       if (dead > 0 && dead < last - first) return false;
-      new_loop.push_back(dead > 0 ? -1 : living++);
+      new_loop.push_back(SectionLoopId{dead > 0 ? -1 : living++});
     }
     return true;
   }
 
-  void drop_dead_crossings(const std::vector<int>& new_loop) {
+  void drop_dead_crossings(const NewLoops& new_loop) {
     auto& crossings = section_.crossings;
-    int kept = 0, kept_loops = 0;
-    for (std::size_t l = 0; l < new_loop.size(); ++l) {
-      if (new_loop[l] < 0) continue;
-      const int first = section_.loops[l].first, last = end_of_loop(l), shift = first - kept;
+    int kept = 0;
+    std::size_t kept_loops = 0;
+    for (const SectionLoopId l : new_loop.ids()) {
+      if (!new_loop[l].is_valid()) continue;
+      const int first = section_.loops[l].first.value, last = end_of_loop(l).value;
+      const int shift = first - kept;
       for (int c = first; c < last && shift > 0; ++c) {
-        const Crossing& from = crossings[at(c)];
-        crossings[at(c - shift)] = {from.edge, from.at, from.next - shift, kept_loops};
+        const Crossing& from = crossings[CrossingId{c}];
+        crossings[CrossingId{c - shift}] = {from.edge, from.at, CrossingId{from.next.value - shift},
+                                            new_loop[l]};
       }
-      section_.loops[at(kept_loops++)] = {kept, section_.loops[l].area};
+      section_.loops[new_loop[l]] = {CrossingId{kept}, section_.loops[l].area};
+      ++kept_loops;
       kept += last - first;
     }
     crossings.resize(at(kept));
-    section_.loops.resize(at(kept_loops));
+    section_.loops.resize(kept_loops);
   }
 
-  bool drop_dead_regions(const std::vector<int>& new_loop) {
-    const auto is_gone = [&](int l) { return new_loop[at(l)] < 0; };
+  bool drop_dead_regions(const NewLoops& new_loop) {
+    const auto is_gone = [&](SectionLoopId l) { return !new_loop[l].is_valid(); };
     for (Region& region : section_.regions) {
       if (is_gone(region.loops[0])) {
         if (!std::ranges::all_of(region.loops, is_gone)) return false;
         region.loops.clear();
         continue;
       }
-      for (const int l : region.loops)
-        if (is_gone(l)) region.area += std::abs(section_.loops[at(l)].area);
+      for (const SectionLoopId l : region.loops)
+        if (is_gone(l)) region.area += std::abs(section_.loops[l].area);
       region.loops.erase(std::remove_if(region.loops.begin(), region.loops.end(), is_gone),
                          region.loops.end());
-      for (int& l : region.loops) l = new_loop[at(l)];
+      for (SectionLoopId& l : region.loops) l = new_loop[l];
     }
-    std::erase_if(section_.regions, [](const Region& region) { return region.loops.empty(); });
+    section_.regions.erase_if([](const Region& region) { return region.loops.empty(); });
     return true;
   }
 
@@ -444,7 +446,7 @@ class Sectioner {
     const std::vector<BodyFacetId> facets = body_.facets_on(opposite);
     if (facets.empty()) return;
     std::vector<Outline> shape;
-    for (const int l : region.loops) shape.push_back(outline(l));
+    for (const SectionLoopId l : region.loops) shape.push_back(outline(l));
     for (const BodyFacetId f : facets) {
       const auto inside = interior_point(body_.outlines(f), axis_);
       if (!inside || !contains(shape, axis_, *inside)) continue;
@@ -454,23 +456,23 @@ class Sectioner {
   }
 
   /// Notes in the loop's region if there is a neck.
-  [[nodiscard]] bool is_natural(int l, Region& region) const {
-    int c = section_.loops[at(l)].first;
+  [[nodiscard]] bool is_natural(SectionLoopId l, Region& region) const {
+    CrossingId c = section_.loops[l].first;
     do {
       if (!is_natural_chord(c)) {
         if (!options_.are_necks_free || !is_neck_chord(c)) return false;
         region.has_neck = true;
       }
-      c = section_.crossings[at(c)].next;
-    } while (c != section_.loops[at(l)].first);
+      c = section_.crossings[c].next;
+    } while (c != section_.loops[l].first);
     return true;
   }
 
   /// From where the facet's loop comes down to the plane it stays on it until it goes up again; or
   /// the facet lies in the ground, where a chord is free.
-  [[nodiscard]] bool is_natural_chord(int c) const {
-    const EdgeId begin = section_.crossings[at(c)].edge;
-    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+  [[nodiscard]] bool is_natural_chord(CrossingId c) const {
+    const EdgeId begin = section_.crossings[c].edge;
+    const EdgeId end = body_.twin(section_.crossings[section_.crossings[c].next].edge);
     if (body_.side_of_edge(begin) == options_.free_side) return true;
     EdgeId e = begin;
     do {
@@ -488,9 +490,9 @@ class Sectioner {
 
   /// From corner to corner on the line the chord follows edges of its facet, or goes through a neck
   /// of it.
-  [[nodiscard]] bool is_neck_chord(int c) const {
-    const EdgeId begin = section_.crossings[at(c)].edge;
-    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+  [[nodiscard]] bool is_neck_chord(CrossingId c) const {
+    const EdgeId begin = section_.crossings[c].edge;
+    const EdgeId end = body_.twin(section_.crossings[section_.crossings[c].next].edge);
     if (level(body_.target(begin)) != 0 || level(body_.origin(end)) != 0) return false;
     const auto stops = stops_between(begin, end);
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
@@ -559,7 +561,7 @@ bool prune_section(const Boundary& body, Section& section, const SectionOptions&
   return Sectioner(body, section, {}, options).prune();
 }
 
-Outline outline_of(const Section& section, int loop) {
+Outline outline_of(const Section& section, SectionLoopId loop) {
   Outline points;
   std::size_t size = 0;
   for_each_crossing(section, loop, [&](const Crossing&) { ++size; });

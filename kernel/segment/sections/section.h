@@ -10,18 +10,23 @@
 
 namespace oriel::detail {
 
+/// A loop of a section: Section::loops.
+using SectionLoopId = Id<struct SectionLoopTag>;
+/// A region of a section: Section::regions.
+using RegionId = Id<struct RegionTag>;
+
 /// Where an edge of a body crosses a section plane.
 struct Crossing {
-  EdgeId edge = {};  ///< the half-edge that leads from the looked-at side to the other
-  Vec3 at;           ///< on the plane
-  int next = -1;     ///< the crossing at the other end of the chord in the facet of `edge`
-  int loop = -1;
+  EdgeId edge = {};      ///< the half-edge that leads from the looked-at side to the other
+  Vec3 at;               ///< on the plane
+  CrossingId next = {};  ///< the crossing at the other end of the chord in the facet of `edge`
+  SectionLoopId loop = {};
 };
 
 /// A closed chain of chords, counter-clockwise about the direction looked to if it encloses
 /// material.
 struct SectionLoop {
-  int first = -1;   ///< a crossing
+  CrossingId first = {};
   double area = 0;  ///< > 0: material inside, < 0: air inside
 };
 
@@ -29,7 +34,7 @@ struct SectionLoop {
 /// Of material it is the contact of a protrusion, of air the cap of a hole.
 struct Region {
   bool is_material = true;
-  boost::container::small_vector<int, 2>
+  boost::container::small_vector<SectionLoopId, 2>
       loops;  ///< the one around it first, then those it surrounds
   /// Its area, and without what coplanar facets of the opposite side cover: the new area of the
   /// cut.
@@ -55,9 +60,9 @@ struct Region {
 struct Section {
   int plane = -1;
   int direction = 1;
-  std::vector<Crossing> crossings = {};
-  std::vector<SectionLoop> loops = {};
-  std::vector<Region> regions = {};
+  IndexedVector<CrossingId, Crossing> crossings = {};
+  IndexedVector<SectionLoopId, SectionLoop> loops = {};
+  IndexedVector<RegionId, Region> regions = {};
   /// The area of the body's facets on the split side of air and of material: the old area of a cut.
   std::array<double, 2> old_areas = {};
   bool is_by_loop = false;  ///< crossings stand loop by loop, in their order
@@ -75,7 +80,7 @@ struct Section {
 };
 
 /// A loop of a section as points.
-Outline outline_of(const Section& section, int loop);
+Outline outline_of(const Section& section, SectionLoopId loop);
 
 /// What a section needs to know beside the body.
 struct SectionOptions {
