@@ -21,11 +21,16 @@ using PointId = Id<struct PointTag>;
 /// A place in an order of candidates or steps: the smaller comes first.
 using Rank = Id<struct RankTag>;
 
-/// The ids 0 … count − 1, ascending, to be iterated over.
+/// The ids from `first` to before `past`, ascending, to be iterated over.
+template <class IdType>
+auto ids_between(IdType first, IdType past) {
+  return std::views::iota(first.value, past.value) |
+         std::views::transform([](int i) { return IdType{i}; });
+}
+/// The ids 0 … count − 1.
 template <class IdType>
 auto ids_below(std::size_t count) {
-  return std::views::iota(0, static_cast<int>(count)) |
-         std::views::transform([](int i) { return IdType{i}; });
+  return ids_between(IdType{0}, IdType{static_cast<int>(count)});
 }
 
 /// A std::vector that is addressed by ids of one kind only: element `k` is that of the id `k`. An

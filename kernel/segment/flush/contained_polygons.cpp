@@ -20,7 +20,9 @@ constexpr double kTurn_deg = 150;
 constexpr double kStraight_deg = 1;
 
 /// A cycle of edges.
-using EdgeLoop = std::vector<int>;
+using EdgeLoop = std::vector<InputEdgeId>;
+/// Polygons, ascending.
+using InputPolygons = std::vector<InputPolygonId>;
 
 class ContainedFinder {
  public:
@@ -33,11 +35,12 @@ class ContainedFinder {
         mark_(subdivisions.polygons.size(), 0) {}
 
   std::vector<ContainedPolygons> run() {
-    for (subdivision_ = 0; subdivision_ < std::ssize(subdivisions_.subdivisions); ++subdivision_) {
+    for (const SubdivisionId s : subdivisions_.subdivisions.ids()) {
       if (work_.is_used_up()) break;
-      const Subdivision& subdivision = subdivisions_.subdivisions[at(subdivision_)];
+      subdivision_ = s;
+      const Subdivision& subdivision = subdivisions_.subdivisions[s];
       normal_ = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()].normal;
-      for (int p = subdivision.first_polygon; p < subdivision.past_polygon; ++p) look_into({p});
+      for (const InputPolygonId p : subdivision.polygons()) look_into({p});
       if (subdivision.has_hints) look_into_hints(subdivision);
       if (!subdivision.has_host) look_for_rectangles(subdivision);
     }
@@ -46,7 +49,7 @@ class ContainedFinder {
     };
     std::ranges::sort(out_, {}, key);
     // A host of several polygons may show again what one of them has shown.
-    std::set<std::vector<int>> seen;
+    std::set<InputPolygons> seen;
     std::erase_if(out_, [&](const ContainedPolygons& contained) {
       return !seen.insert(contained.polygons).second;
     });
@@ -56,13 +59,13 @@ class ContainedFinder {
  private:
   /// Connected polygons of one hint may be a host.
   void look_into_hints(const Subdivision& subdivision) {
-    std::vector<char> is_done(at(subdivision.past_polygon - subdivision.first_polygon), 0);
-    for (int p = subdivision.first_polygon; p < subdivision.past_polygon; ++p) {
-      if (is_done[at(p - subdivision.first_polygon)]) continue;
-      const int hint = subdivisions_.polygons[at(p)].hint;
-      std::vector<int> host =
-          flood({p}, [&](int other) { return subdivisions_.polygons[at(other)].hint == hint; });
-      for (const int member : host) is_done[at(member - subdivision.first_polygon)] = 1;
+    std::set<InputPolygonId> done;
+    for (const InputPolygonId p : subdivision.polygons()) {
+      if (done.contains(p)) continue;
+      const int hint = subdivisions_.polygons[p].hint;
+      InputPolygons host = flood(
+          {p}, [&](InputPolygonId other) { return subdivisions_.polygons[other].hint == hint; });
+      done.insert(host.begin(), host.end());
       if (host.size() > 1) look_into(host);
     }
   }
@@ -79,34 +82,32 @@ class ContainedFinder {
       }
   }
 
-  [[nodiscard]] const SubdivisionEdge& edge(int e) const { return subdivisions_.edges[at(e)]; }
-  /// The polygon on the other side of an edge, in the subdivision; or -1.
-  [[nodiscard]] int across(int e) const {
-    return edge(e).twin < 0 ? -1 : edge(edge(e).twin).polygon;
+  [[nodiscard]] const SubdivisionEdge& edge(InputEdgeId e) const { return subdivisions_.edges[e]; }
+  /// The polygon on the other side of an edge, in the subdivision, if any.
+  [[nodiscard]] InputPolygonId across(InputEdgeId e) const {
+    return edge(e).twin.is_valid() ? edge(edge(e).twin).polygon : InputPolygonId{};
   }
   template <class Visit>
-  void for_each_edge(const std::vector<int>& polygons, Visit visit) const {
-    for (const int p : polygons)
-      for (int e = subdivisions_.polygons[at(p)].first_edge;
-           e < subdivisions_.polygons[at(p)].past_edge; ++e)
-        visit(e);
+  void for_each_edge(const InputPolygons& polygons, Visit visit) const {
+    for (const InputPolygonId p : polygons)
+      for (const InputEdgeId e : subdivisions_.polygons[p].edges()) visit(e);
   }
 
   /// All polygons that hang together with `seeds` over edges, `seeds` included, of those that
   /// `may_enter` lets in. Ascending.
   template <class MayEnter>
-  std::vector<int> flood(std::vector<int> seeds, MayEnter may_enter) {
+  InputPolygons flood(InputPolygons seeds, MayEnter may_enter) {
     const int mark = ++last_mark_;
-    std::vector<int> found;
-    for (const int seed : seeds)
-      if (std::exchange(mark_[at(seed)], mark) != mark) found.push_back(seed);
+    InputPolygons found;
+    for (const InputPolygonId seed : seeds)
+      if (std::exchange(mark_[seed], mark) != mark) found.push_back(seed);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const SubdivisionPolygon& polygon = subdivisions_.polygons[at(found[i])];
-      work_.add(polygon.past_edge - polygon.first_edge);
-      for (int e = polygon.first_edge; e < polygon.past_edge; ++e) {
-        const int other = across(e);
-        if (other < 0 || mark_[at(other)] == mark || !may_enter(other)) continue;
-        mark_[at(other)] = mark;
+      const SubdivisionPolygon& polygon = subdivisions_.polygons[found[i]];
+      work_.add(std::ssize(polygon.edges()));
+      for (const InputEdgeId e : polygon.edges()) {
+        const InputPolygonId other = across(e);
+        if (!other.is_valid() || mark_[other] == mark || !may_enter(other)) continue;
+        mark_[other] = mark;
         found.push_back(other);
       }
     }
@@ -115,14 +116,16 @@ class ContainedFinder {
   }
 
   /// The outlines of polygons taken together; `polygons` is ascending.
-  [[nodiscard]] std::vector<EdgeLoop> loops_of(const std::vector<int>& polygons) const {
-    const auto is_in = [&](int p) { return p >= 0 && std::ranges::binary_search(polygons, p); };
+  [[nodiscard]] std::vector<EdgeLoop> loops_of(const InputPolygons& polygons) const {
+    const auto is_in = [&](InputPolygonId p) {
+      return p.is_valid() && std::ranges::binary_search(polygons, p);
+    };
     std::vector<EdgeLoop> loops;
-    std::set<int> seen;
-    for_each_edge(polygons, [&](int start) {
+    std::set<InputEdgeId> seen;
+    for_each_edge(polygons, [&](InputEdgeId start) {
       if (is_in(across(start)) || seen.contains(start)) return;
       loops.emplace_back();
-      int e = start;
+      InputEdgeId e = start;
       do {
         work_.add(1);
         seen.insert(e);
@@ -136,11 +139,11 @@ class ContainedFinder {
 
   [[nodiscard]] Outline outline_of(const EdgeLoop& loop) const {
     Outline outline;
-    for (const int e : loop) outline.push_back(subdivisions_.points[at(edge(e).from)]);
+    for (const InputEdgeId e : loop) outline.push_back(subdivisions_.start(e));
     return outline;
   }
 
-  void look_into(const std::vector<int>& host) {
+  void look_into(const InputPolygons& host) {
     if (work_.is_used_up() || (host.size() == 1 && !may_host(host[0]))) return;
     for (const EdgeLoop& loop : loops_of(host)) {
       if (signed_area(outline_of(loop), normal_) < 0)
@@ -151,19 +154,20 @@ class ContainedFinder {
   }
 
   /// As `may_host` of subdivisions.cpp, on the welded polygon.
-  [[nodiscard]] bool may_host(int polygon) const {
+  [[nodiscard]] bool may_host(InputPolygonId polygon) const {
     int right = 0;
-    for_each_edge({polygon},
-                  [&](int e) { right += turn_deg(e, edge(e).next) < -kStraight_deg ? 1 : 0; });
+    for_each_edge({polygon}, [&](InputEdgeId e) {
+      right += turn_deg(e, edge(e).next) < -kStraight_deg ? 1 : 0;
+    });
     return right >= 2;
   }
 
   /// An inner ring of the host with polygons of the subdivision behind it: behind all of it, behind
   /// three sides (a door over the slab of its balcony), or between recesses that fill the rest.
-  void look_into_ring(const std::vector<int>& host, const EdgeLoop& ring) {
-    std::vector<int> seeds;
-    for (const int e : ring)
-      if (across(e) >= 0) seeds.push_back(across(e));
+  void look_into_ring(const InputPolygons& host, const EdgeLoop& ring) {
+    InputPolygons seeds;
+    for (const InputEdgeId e : ring)
+      if (across(e).is_valid()) seeds.push_back(across(e));
     if (seeds.empty()) return;
     Outline outline = outline_of(ring);
     std::ranges::reverse(outline);
@@ -173,23 +177,23 @@ class ContainedFinder {
       add(host, inside(host, seeds), {}, std::move(outline));
   }
 
-  std::vector<int> inside(const std::vector<int>& host, const std::vector<int>& seeds) {
-    return flood(seeds, [&](int p) { return !std::ranges::binary_search(host, p); });
+  InputPolygons inside(const InputPolygons& host, const InputPolygons& seeds) {
+    return flood(seeds, [&](InputPolygonId p) { return !std::ranges::binary_search(host, p); });
   }
 
   /// How far the way turns to the left from one edge to the next.
-  [[nodiscard]] double turn_deg(int e, int f) const {
+  [[nodiscard]] double turn_deg(InputEdgeId e, InputEdgeId f) const {
     const Vec3 p = subdivisions_.vector(e), q = subdivisions_.vector(f);
     return std::atan2(dot(cross(p, q), normal_), dot(p, q)) * 180 / std::numbers::pi;
   }
 
   /// Chains of the host's outline that turn inward, with polygons of the subdivision behind all of
   /// them; true if something is inset in one.
-  bool look_along_outline(const std::vector<int>& host, const EdgeLoop& loop) {
+  bool look_along_outline(const InputPolygons& host, const EdgeLoop& loop) {
     const std::size_t size = loop.size();
     const auto goes_on = [&](std::size_t i) {  // from edge i to the one after it
-      const int e = loop[i % size], f = loop[(i + 1) % size];
-      return across(e) >= 0 && across(f) >= 0 && turn_deg(e, f) <= kStraight_deg;
+      const InputEdgeId e = loop[i % size], f = loop[(i + 1) % size];
+      return across(e).is_valid() && across(f).is_valid() && turn_deg(e, f) <= kStraight_deg;
     };
     std::size_t start = 0;
     while (start < size && goes_on(start)) ++start;
@@ -211,10 +215,10 @@ class ContainedFinder {
   /// What hangs together behind the chain, if the host meets it along the chain only; else the
   /// polygons right behind the chain, under the same condition (a door beside a plinth that is in
   /// plane with it, too).
-  bool look_behind(const std::vector<int>& host, const EdgeLoop& chain) {
-    std::vector<int> seeds;
-    for (const int e : chain) seeds.push_back(across(e));
-    std::vector<int> found = inside(host, seeds);
+  bool look_behind(const InputPolygons& host, const EdgeLoop& chain) {
+    InputPolygons seeds;
+    for (const InputEdgeId e : chain) seeds.push_back(across(e));
+    InputPolygons found = inside(host, seeds);
     if (!meets_only(found, host, chain)) {
       std::ranges::sort(seeds);
       seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
@@ -231,22 +235,21 @@ class ContainedFinder {
   /// The chain and the straight line between its ends, seen from what it encloses.
   [[nodiscard]] Outline closed(const EdgeLoop& chain) const {
     Outline outline = outline_of(chain);
-    outline.push_back(subdivisions_.points[at(subdivisions_.to(chain.back()))]);
+    outline.push_back(subdivisions_.start(edge(chain.back()).next));
     std::ranges::reverse(outline);
     return outline;
   }
 
-  [[nodiscard]] bool meets_only(const std::vector<int>& polygons, const std::vector<int>& host,
+  [[nodiscard]] bool meets_only(const InputPolygons& polygons, const InputPolygons& host,
                                 const EdgeLoop& chain) const {
     std::size_t met = 0;
-    for_each_edge(polygons, [&](int e) {
-      met += across(e) >= 0 && std::ranges::binary_search(host, across(e)) ? 1 : 0;
+    for_each_edge(polygons, [&](InputEdgeId e) {
+      met += across(e).is_valid() && std::ranges::binary_search(host, across(e)) ? 1 : 0;
     });
     return met == chain.size();
   }
 
-  bool add(const std::vector<int>& host, std::vector<int> polygons, Outline outline,
-           Outline whole) {
+  bool add(const InputPolygons& host, InputPolygons polygons, Outline outline, Outline whole) {
     const double area = outline.empty() ? 0 : signed_area(outline, normal_);
     const double whole_area = whole.empty() ? 0 : signed_area(whole, normal_);
     constexpr double kMore = 1.01;  // less than a hundredth more is a bent sill
@@ -263,9 +266,9 @@ class ContainedFinder {
   const Subdivisions& subdivisions_;
   const Tolerances& tolerances_;
   Work& work_;
-  int subdivision_ = 0;
+  SubdivisionId subdivision_;
   Vec3 normal_;
-  std::vector<int> mark_;  ///< by polygon, the number of the flood that reached it last
+  IndexedVector<InputPolygonId, int> mark_;  ///< the number of the flood that reached it last
   int last_mark_ = 0;
   std::vector<ContainedPolygons> out_;
 };

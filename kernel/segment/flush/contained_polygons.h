@@ -11,11 +11,11 @@ namespace oriel::detail {
 
 /// Polygons of a subdivision that lie inset in another of its polygons, the host.
 struct ContainedPolygons {
-  int subdivision = -1;
+  SubdivisionId subdivision = {};
   /// A polygon of the host.
-  int host = -1;
+  InputPolygonId host = {};
   /// Subdivisions::polygons, ascending.
-  std::vector<int> polygons;
+  std::vector<InputPolygonId> polygons;
   /// Around the polygons, counter-clockwise seen from outside; recesses that they enclose are not
   /// left out. Empty if the polygons alone are nothing.
   Outline outline;

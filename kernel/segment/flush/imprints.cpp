@@ -54,7 +54,7 @@ class ImprintWriter {
  private:
   [[nodiscard]] Feature& feature(FeatureId id) { return out_.features[id.index()]; }
   [[nodiscard]] const Facet& facet_of(const ContainedPolygons& contained) const {
-    return solid_.facets[subdivisions_.subdivisions[at(contained.subdivision)].facet.index()];
+    return solid_.facets[subdivisions_.subdivisions[contained.subdivision].facet.index()];
   }
 
   /// Which cell facet has an input polygon, and which features lie in which plane.
@@ -112,7 +112,7 @@ class ImprintWriter {
       out_.features.push_back(make(contained, *home, plane));
       for (const FeatureId found_id : within)
         if (!carries(found_id, id)) feature(found_id).host = id;
-      for (const int p : contained.polygons) owner_[p] = id;
+      for (const detail::InputPolygonId p : contained.polygons) owner_[p] = id;
     }
   }
 
@@ -129,8 +129,8 @@ class ImprintWriter {
   [[nodiscard]] std::optional<CellFacet> home_of(const ContainedPolygons& contained) const {
     std::optional<CellFacet> home;
     double largest = -1;
-    for (const int p : contained.polygons) {
-      const detail::SubdivisionPolygon& polygon = subdivisions_.polygons[at(p)];
+    for (const detail::InputPolygonId p : contained.polygons) {
+      const detail::SubdivisionPolygon& polygon = subdivisions_.polygons[p];
       const auto found = home_.find(polygon.source);
       if (found == home_.end() || polygon.area_m2 <= largest) continue;
       largest = polygon.area_m2;
@@ -169,7 +169,8 @@ class ImprintWriter {
   [[nodiscard]] bool fills_whole(const ContainedPolygons& contained, PlaneId plane,
                                  const detail::ReachAxes& axes) {
     double filled_m2 = 0;
-    for (const int p : contained.polygons) filled_m2 += subdivisions_.polygons[at(p)].area_m2;
+    for (const detail::InputPolygonId p : contained.polygons)
+      filled_m2 += subdivisions_.polygons[p].area_m2;
     for (const FeatureId id :
          features_within(contained.whole, plane, axes.reach_of(contained.whole))) {
       if (feature(id).sense != Sense::hole) return false;
@@ -191,8 +192,8 @@ class ImprintWriter {
       Feature& recess = feature(id);
       if (recess.sense != Sense::hole && !recess.is_uncut) continue;
       if (!axes.reach_of(cap_points_of(recess)).holds(reach, slack_m())) continue;
-      for (const int p : contained.polygons) {
-        recess.source_polygons.push_back(subdivisions_.polygons[at(p)].source);
+      for (const detail::InputPolygonId p : contained.polygons) {
+        recess.source_polygons.push_back(subdivisions_.polygons[p].source);
         owner_[p] = id;
       }
       tidy(recess.source_polygons);
@@ -209,7 +210,7 @@ class ImprintWriter {
   /// The smaller of the imprint and the uncut feature that have the host polygon.
   [[nodiscard]] std::optional<FeatureId> host_of(const ContainedPolygons& contained) const {
     const auto imprint = owner_.find(contained.host);
-    const auto ring = ring_.find(subdivisions_.polygons[at(contained.host)].source);
+    const auto ring = ring_.find(subdivisions_.polygons[contained.host].source);
     if (imprint == owner_.end() && ring == ring_.end()) return std::nullopt;
     if (imprint == owner_.end()) return ring->second;
     if (ring == ring_.end()) return imprint->second;
@@ -228,9 +229,9 @@ class ImprintWriter {
     f.cap_point = detail::interior_point({{contained.outline}}, normal_of(plane))
                       .value_or(contained.outline[0]);
     f.is_natural = true;
-    for (const int p : contained.polygons) {
-      f.source_polygons.push_back(subdivisions_.polygons[at(p)].source);
-      f.surface_m2 += subdivisions_.polygons[at(p)].area_m2;
+    for (const detail::InputPolygonId p : contained.polygons) {
+      f.source_polygons.push_back(subdivisions_.polygons[p].source);
+      f.surface_m2 += subdivisions_.polygons[p].area_m2;
     }
     for (const Vec3 p : contained.outline) {
       f.outline.push_back(static_cast<int>(out_.vertices.size()));
@@ -279,8 +280,8 @@ class ImprintWriter {
   std::size_t tree_features_;
   std::map<int, CellFacet> home_;  ///< by Polygon::source
   std::map<PlaneId, std::vector<CapInPlane>> caps_on_;
-  std::map<int, FeatureId> ring_;   ///< by Polygon::source: the smallest uncut feature
-  std::map<int, FeatureId> owner_;  ///< of subdivision polygons: the smallest imprint so far
+  std::map<int, FeatureId> ring_;  ///< by Polygon::source: the smallest uncut feature
+  std::map<detail::InputPolygonId, FeatureId> owner_;  ///< the smallest imprint so far
 };
 
 }  // namespace

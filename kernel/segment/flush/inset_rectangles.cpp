@@ -27,8 +27,8 @@ using PointChain = std::vector<int>;
 
 /// Its sides are of edges of the polygons inside, counter-clockwise.
 struct RectangleOfEdges {
-  std::array<int, 4> corners{};           ///< points
-  std::array<std::vector<int>, 4> sides;  ///< side i leads from corner i to the next
+  std::array<int, 4> corners{};                   ///< points
+  std::array<std::vector<InputEdgeId>, 4> sides;  ///< side i leads from corner i to the next
   double area_m2 = 0;
 };
 
@@ -61,8 +61,8 @@ class RectangleFinder {
 
  private:
   struct EdgeAtPoint {
-    int to;    ///< a point
-    int edge;  ///< of the polygon to the left, or -1 where the facet ends
+    int to;                 ///< a point
+    InputEdgeId edge = {};  ///< of the polygon to the left; invalid where the facet ends
   };
   /// The sides at a corner, as far as they go straight.
   struct CornerChains {
@@ -83,20 +83,21 @@ class RectangleFinder {
   [[nodiscard]] const PointOfFacet& point(int p) const { return points_[at(p - first_point_)]; }
 
   void collect_edges() {
-    const auto first = all_.polygons[at(subdivision_.first_polygon)].first_edge,
-               past = all_.polygons[at(subdivision_.past_polygon - 1)].past_edge;
+    const InputPolygonId last{subdivision_.past_polygon.value - 1};
+    const auto edges = ids_between(all_.polygons[subdivision_.first_polygon].first_edge,
+                                   all_.polygons[last].past_edge);
     int last_point = -1;
-    first_point_ = all_.edges[at(first)].from;
-    for (int e = first; e < past; ++e) {
-      first_point_ = std::min(first_point_, all_.edges[at(e)].from);
-      last_point = std::max(last_point, all_.edges[at(e)].from);
+    first_point_ = all_.edges[*edges.begin()].from;
+    for (const InputEdgeId e : edges) {
+      first_point_ = std::min(first_point_, all_.edges[e].from);
+      last_point = std::max(last_point, all_.edges[e].from);
     }
     points_.resize(at(last_point - first_point_ + 1));
-    for (int e = first; e < past; ++e) {
-      const int from = all_.edges[at(e)].from, to = all_.to(e);
+    for (const InputEdgeId e : edges) {
+      const int from = all_.edges[e].from, to = all_.to(e);
       point(from).spokes.push_back({to, e});
-      if (all_.edges[at(e)].twin >= 0) continue;
-      point(to).spokes.push_back({from, -1});
+      if (all_.edges[e].twin.is_valid()) continue;
+      point(to).spokes.push_back({from});
       point(from).is_inner = point(to).is_inner = false;
     }
     for (int p = first_point_; p <= last_point; ++p) point(p).is_needed = is_needed(p);
@@ -107,7 +108,7 @@ class RectangleFinder {
     Vec3 longest;
     for (int p = first_point_; p < first_point_ + std::ssize(points_); ++p)
       for (const EdgeAtPoint& spoke : point(p).spokes)
-        if (spoke.edge < 0 && length(vector(p, spoke.to)) > length(longest))
+        if (!spoke.edge.is_valid() && length(vector(p, spoke.to)) > length(longest))
           longest = vector(p, spoke.to);
     const Vec3 u = normalised(longest);
     return {u, cross(normal_, u)};
@@ -122,7 +123,8 @@ class RectangleFinder {
     if (point(p).is_inner) return false;
     std::vector<Vec3> out;
     for (const EdgeAtPoint& spoke : point(p).spokes)
-      if (spoke.edge < 0 || all_.edges[at(spoke.edge)].twin < 0) out.push_back(vector(p, spoke.to));
+      if (!spoke.edge.is_valid() || !all_.edges[spoke.edge].twin.is_valid())
+        out.push_back(vector(p, spoke.to));
     return out.size() != 2 || !is_along(-1 * out[0], normalised(out[1]));
   }
 
@@ -239,8 +241,9 @@ class RectangleFinder {
                                     const RectangleOfEdges& larger) const {
     const auto is_same = [&](std::size_t s) { return smaller.sides[s] == larger.sides[s]; };
     const auto are_rim = [&](auto first, auto past) {
-      return first != past &&
-             std::all_of(first, past, [&](int e) { return all_.edges[at(e)].twin < 0; });
+      return first != past && std::all_of(first, past, [&](InputEdgeId e) {
+               return !all_.edges[e].twin.is_valid();
+             });
     };
     for (std::size_t s = 0; s < 4; ++s) {
       const std::size_t after = (s + 1) % 4, before = (s + 3) % 4;
@@ -300,9 +303,9 @@ class RectangleFinder {
       found.corners[s] = from;
       is_inside[s] = true;
       for (const int to : sides[s]) {
-        const int e = edge_between(from, to);
-        if (e < 0) return std::nullopt;
-        ends_inside[s] = all_.edges[at(e)].twin >= 0;
+        const InputEdgeId e = edge_between(from, to);
+        if (!e.is_valid()) return std::nullopt;
+        ends_inside[s] = all_.edges[e].twin.is_valid();
         if (to == sides[s].front()) begins_inside[s] = ends_inside[s];
         is_inside[s] = is_inside[s] && ends_inside[s];
         found.sides[s].push_back(e);
@@ -321,10 +324,10 @@ class RectangleFinder {
     return found;
   }
 
-  [[nodiscard]] int edge_between(int from, int to) const {
+  [[nodiscard]] InputEdgeId edge_between(int from, int to) const {
     for (const EdgeAtPoint& spoke : point(from).spokes)
-      if (spoke.to == to && spoke.edge >= 0) return spoke.edge;
-    return -1;
+      if (spoke.to == to && spoke.edge.is_valid()) return spoke.edge;
+    return {};
   }
 
   /// Drops what has a side that goes on to nothing that explains it, and then what was explained by
@@ -346,39 +349,39 @@ class RectangleFinder {
     }
   }
 
-  static std::vector<int> ring_of(const RectangleOfEdges& rectangle) {
-    std::vector<int> ring;
+  static std::vector<InputEdgeId> ring_of(const RectangleOfEdges& rectangle) {
+    std::vector<InputEdgeId> ring;
     for (const auto& side : rectangle.sides) ring.insert(ring.end(), side.begin(), side.end());
     return ring;
   }
 
   /// What lies within a ring of edges.
-  [[nodiscard]] std::vector<int> within(const std::vector<int>& ring) const {
-    const std::set<int> barrier(ring.begin(), ring.end());
-    std::set<int> found;
-    std::vector<int> open;
-    const auto enter = [&](int polygon) {
+  [[nodiscard]] std::vector<InputPolygonId> within(const std::vector<InputEdgeId>& ring) const {
+    const std::set<InputEdgeId> barrier(ring.begin(), ring.end());
+    std::set<InputPolygonId> found;
+    std::vector<InputPolygonId> open;
+    const auto enter = [&](InputPolygonId polygon) {
       if (found.insert(polygon).second) open.push_back(polygon);
     };
-    for (const int e : ring) enter(all_.edges[at(e)].polygon);
+    for (const InputEdgeId e : ring) enter(all_.edges[e].polygon);
     while (!open.empty()) {
-      const SubdivisionPolygon& polygon = all_.polygons[at(open.back())];
+      const SubdivisionPolygon& polygon = all_.polygons[open.back()];
       open.pop_back();
-      for (int e = polygon.first_edge; e < polygon.past_edge; ++e)
-        if (const int twin = all_.edges[at(e)].twin; twin >= 0 && !barrier.contains(e))
-          enter(all_.edges[at(twin)].polygon);
+      for (const InputEdgeId e : polygon.edges())
+        if (const InputEdgeId twin = all_.edges[e].twin; twin.is_valid() && !barrier.contains(e))
+          enter(all_.edges[twin].polygon);
     }
     return {found.begin(), found.end()};
   }
 
   /// The rectangles, those that share an edge as one.
   [[nodiscard]] std::vector<InsetRectangle> joined() const {
-    std::map<int, int> rectangle_of;  // by the edges of rings
+    std::map<InputEdgeId, int> rectangle_of;  // by the edges of rings
     for (int r = 0; r < std::ssize(taken_); ++r)
-      for (const int e : ring_of(taken_[at(r)])) rectangle_of[e] = r;
+      for (const InputEdgeId e : ring_of(taken_[at(r)])) rectangle_of[e] = r;
     DisjointSets sets(taken_.size());
-    const auto beside = [&](int e) {
-      const auto found = rectangle_of.find(all_.edges[at(e)].twin);
+    const auto beside = [&](InputEdgeId e) {
+      const auto found = rectangle_of.find(all_.edges[e].twin);
       return found == rectangle_of.end() ? -1 : found->second;
     };
     for (const auto& [e, r] : rectangle_of)
@@ -386,11 +389,11 @@ class RectangleFinder {
     std::map<int, InsetRectangle> joined;
     for (int r = 0; r < std::ssize(taken_); ++r) {
       InsetRectangle& inset = joined[sets.find(r)];
-      const std::vector<int> ring = ring_of(taken_[at(r)]);
-      for (const int e : ring)
-        if (const int twin = all_.edges[at(e)].twin; twin >= 0 && beside(e) < 0)
-          inset.host = all_.edges[at(twin)].polygon;
-      const std::vector<int> inside = within(ring);
+      const std::vector<InputEdgeId> ring = ring_of(taken_[at(r)]);
+      for (const InputEdgeId e : ring)
+        if (const InputEdgeId twin = all_.edges[e].twin; twin.is_valid() && beside(e) < 0)
+          inset.host = all_.edges[twin].polygon;
+      const std::vector<InputPolygonId> inside = within(ring);
       inset.polygons.insert(inset.polygons.end(), inside.begin(), inside.end());
     }
     std::vector<InsetRectangle> out;
@@ -398,7 +401,7 @@ class RectangleFinder {
       std::ranges::sort(inset.polygons);
       inset.polygons.erase(std::unique(inset.polygons.begin(), inset.polygons.end()),
                            inset.polygons.end());
-      if (inset.host >= 0) out.push_back(std::move(inset));
+      if (inset.host.is_valid()) out.push_back(std::move(inset));
     }
     return out;
   }

@@ -11,8 +11,8 @@ namespace oriel::detail {
 
 /// What a subdivision without a host polygon betrays of a flush opening.
 struct InsetRectangle {
-  int host = -1;              ///< a polygon beside it
-  std::vector<int> polygons;  ///< Subdivisions::polygons, ascending
+  InputPolygonId host = {};              ///< a polygon beside it
+  std::vector<InputPolygonId> polygons;  ///< Subdivisions::polygons, ascending
 };
 
 /// The rectangles that stand out in a wall that was cut into triangles polygon by polygon.

@@ -156,7 +156,7 @@ class SubdivisionMaker {
 
  private:
   void choose_facets(const BySource& by_source) {
-    subdivision_of_source_.assign(by_source.size(), -1);
+    subdivision_of_source_.resize(by_source.size());
     for (int f = 0; f < std::ssize(solid_.facets); ++f) {
       const Facet& facet = solid_.facets[at(f)];
       if (facet.polygons.size() < 2) continue;
@@ -169,8 +169,8 @@ class SubdivisionMaker {
       }
       if (!has_host && !has_hints && facet.polygons.size() < kFewestAroundRectangle) continue;
       for (const int source : facet.polygons)
-        subdivision_of_source_[at(source)] = static_cast<int>(out_.subdivisions.size());
-      out_.subdivisions.push_back({FacetId{f}, -1, -1, has_hints, has_host});
+        subdivision_of_source_[at(source)] = out_.subdivisions.next_id();
+      out_.subdivisions.push_back({FacetId{f}, {}, {}, has_hints, has_host});
     }
   }
 
@@ -179,7 +179,7 @@ class SubdivisionMaker {
     Building part;
     std::vector<int> place(building_.vertices.size(), -1);
     for (const Polygon* polygon : by_source) {
-      if (polygon == nullptr || subdivision_of_source_[at(polygon->source)] < 0) continue;
+      if (polygon == nullptr || !subdivision_of_source_[at(polygon->source)].is_valid()) continue;
       Polygon copy = *polygon;
       for (auto& ring : copy.rings)
         for (int& v : ring) {
@@ -199,11 +199,11 @@ class SubdivisionMaker {
   }
 
   void sort_into_subdivisions(const Soup& soup) {
-    std::vector<std::vector<int>> members(out_.subdivisions.size());
+    IndexedVector<SubdivisionId, std::vector<int>> members(out_.subdivisions.size());
     for (int p = 0; p < soup.polygon_count(); ++p)
-      members[at(subdivision_of_source_[at(soup.polygons[at(p)].source)])].push_back(p);
+      members[subdivision_of_source_[at(soup.polygons[at(p)].source)]].push_back(p);
     std::vector<int> place(soup.points.size());
-    for (std::size_t s = 0; s < members.size(); ++s) {
+    for (const SubdivisionId s : members.ids()) {
       Subdivision& subdivision = out_.subdivisions[s];
       const Plane& plane = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()];
       const int first_point = static_cast<int>(out_.points.size());
@@ -217,7 +217,7 @@ class SubdivisionMaker {
         }
         return place[at(v)];
       };
-      subdivision.first_polygon = static_cast<int>(out_.polygons.size());
+      subdivision.first_polygon = out_.polygons.next_id();
       for (const int polygon : members[s])
         for (const int v : soup.corners_of(polygon)) point_of(v);
       const std::vector<Vec3> points(out_.points.begin() + first_point, out_.points.end());
@@ -229,11 +229,10 @@ class SubdivisionMaker {
         return on_edges.between(point_of(v) - first_point, point_of(w) - first_point);
       };
       for (const int polygon : members[s])
-        add_polygon(soup, polygon, static_cast<int>(s), plane.normal,
-                    [&](std::span<const int> ring) {
-                      return with_points_between(ring, first_point, point_of, between);
-                    });
-      subdivision.past_polygon = static_cast<int>(out_.polygons.size());
+        add_polygon(soup, polygon, s, plane.normal, [&](std::span<const int> ring) {
+          return with_points_between(ring, first_point, point_of, between);
+        });
+      subdivision.past_polygon = out_.polygons.next_id();
     }
   }
 
@@ -268,26 +267,23 @@ class SubdivisionMaker {
   }
 
   template <class PointsOf>
-  void add_polygon(const Soup& soup, int polygon, int subdivision, Vec3 normal,
+  void add_polygon(const Soup& soup, int polygon, SubdivisionId subdivision, Vec3 normal,
                    PointsOf points_of) {
     const int source = soup.polygons[at(polygon)].source;
-    SubdivisionPolygon record{source,      *hint_of_source_.at(source),
-                              subdivision, static_cast<int>(out_.edges.size()),
-                              -1,          0};
+    SubdivisionPolygon record{
+        source, *hint_of_source_.at(source), subdivision, out_.edges.next_id(), {}, 0};
     for (const int r : soup.rings_of(polygon)) {
       const std::vector<int> ring = points_of(soup.ring(r));
-      const int first = static_cast<int>(out_.edges.size());
+      const int first = out_.edges.next_id().value;
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const int next = i + 1 < ring.size() ? first + static_cast<int>(i) + 1 : first;
-        out_.edges.push_back({ring[i], static_cast<int>(out_.polygons.size()), next, -1});
+        out_.edges.push_back({ring[i], out_.polygons.next_id(), InputEdgeId{next}, {}});
       }
     }
-    record.past_edge = static_cast<int>(out_.edges.size());
-    for (int e = record.first_edge; e < record.past_edge; ++e) {
-      const Vec3 base = out_.points[at(out_.edges[at(record.first_edge)].from)];
-      record.area_m2 +=
-          dot(cross(out_.points[at(out_.edges[at(e)].from)] - base, out_.vector(e)), normal) / 2;
-    }
+    record.past_edge = out_.edges.next_id();
+    const Vec3 base = out_.start(record.first_edge);
+    for (const InputEdgeId e : record.edges())
+      record.area_m2 += dot(cross(out_.start(e) - base, out_.vector(e)), normal) / 2;
     if (record.area_m2 < 0) turn_round(record);
     out_.polygons.push_back(record);
   }
@@ -295,12 +291,11 @@ class SubdivisionMaker {
   /// The input had the polygon the wrong way round.
   void turn_round(SubdivisionPolygon& record) {
     std::vector<SubdivisionEdge> turned;
-    for (int e = record.first_edge; e < record.past_edge; ++e) {
-      turned.push_back({out_.to(e), out_.edges[at(e)].polygon, -1, -1});
-    }
-    for (int e = record.first_edge; e < record.past_edge; ++e)
-      turned[at(out_.edges[at(e)].next - record.first_edge)].next = e;
-    std::ranges::copy(turned, out_.edges.begin() + record.first_edge);
+    for (const InputEdgeId e : record.edges())
+      turned.push_back({out_.to(e), out_.edges[e].polygon, {}, {}});
+    for (const InputEdgeId e : record.edges())
+      turned[at(out_.edges[e].next.value - record.first_edge.value)].next = e;
+    std::ranges::copy(turned, out_.edges.begin() + record.first_edge.value);
     record.area_m2 = -record.area_m2;
   }
 
@@ -308,18 +303,18 @@ class SubdivisionMaker {
     const auto key = [](int from, int to) {
       return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
     };
-    std::unordered_map<std::uint64_t, int> edges;
+    std::unordered_map<std::uint64_t, InputEdgeId> edges;
     edges.reserve(out_.edges.size());
-    for (int e = 0; e < std::ssize(out_.edges); ++e)
-      edges.emplace(key(out_.edges[at(e)].from, out_.to(e)), e);
+    for (const InputEdgeId e : out_.edges.ids())
+      edges.emplace(key(out_.edges[e].from, out_.to(e)), e);
     // Polygons that lie upon each other have the same edges: the first of them has the twin, so
     // that an edge is its twin's twin.
-    const auto is_first = [&](int e) {
-      return edges.find(key(out_.edges[at(e)].from, out_.to(e)))->second == e;
+    const auto is_first = [&](InputEdgeId e) {
+      return edges.find(key(out_.edges[e].from, out_.to(e)))->second == e;
     };
-    for (int e = 0; e < std::ssize(out_.edges); ++e) {
-      const auto twin = edges.find(key(out_.to(e), out_.edges[at(e)].from));
-      if (twin != edges.end() && is_first(e)) out_.edges[at(e)].twin = twin->second;
+    for (const InputEdgeId e : out_.edges.ids()) {
+      const auto twin = edges.find(key(out_.to(e), out_.edges[e].from));
+      if (twin != edges.end() && is_first(e)) out_.edges[e].twin = twin->second;
     }
   }
 
@@ -327,7 +322,7 @@ class SubdivisionMaker {
   const Solid& solid_;
   const Tolerances& tolerances_;
   Work& work_;
-  std::vector<int> subdivision_of_source_;
+  std::vector<SubdivisionId> subdivision_of_source_;
   std::map<std::string, int> hints_;
   std::unordered_map<int, const int*> hint_of_source_;
   std::vector<int> origin_;  ///< of each point, the soup's

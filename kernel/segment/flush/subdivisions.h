@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/base/work.h"
 #include "model/building.h"
 #include "model/solid.h"
@@ -10,28 +10,39 @@
 
 namespace oriel::detail {
 
+/// An edge of Subdivisions::edges.
+using InputEdgeId = Id<struct InputEdgeTag>;
+/// A polygon of Subdivisions::polygons.
+using InputPolygonId = Id<struct InputPolygonTag>;
+/// One of Subdivisions::subdivisions.
+using SubdivisionId = Id<struct SubdivisionTag>;
+
 /// A directed edge of an input polygon, its polygon to the left seen from outside.
 struct SubdivisionEdge {
-  int from = -1;     ///< Subdivisions::points
-  int polygon = -1;  ///< Subdivisions::polygons
-  int next = -1;     ///< along the same ring
-  int twin = -1;     ///< the opposite edge of another polygon of the same subdivision, or -1
+  int from = -1;  ///< Subdivisions::points
+  InputPolygonId polygon = {};
+  InputEdgeId next = {};  ///< along the same ring
+  InputEdgeId twin = {};  ///< the opposite edge of another polygon of the same subdivision
 };
 
 struct SubdivisionPolygon {
   int source = -1;
   int hint = 0;  ///< equal hints have equal numbers
-  int subdivision = -1;
-  int first_edge = -1, past_edge = -1;
+  SubdivisionId subdivision = {};
+  InputEdgeId first_edge = {}, past_edge = {};
   double area_m2 = 0;
+
+  [[nodiscard]] auto edges() const { return ids_between(first_edge, past_edge); }
 };
 
 /// The input polygons that make up one facet of the solid, side by side in one plane.
 struct Subdivision {
   FacetId facet;
-  int first_polygon = -1, past_polygon = -1;
+  InputPolygonId first_polygon = {}, past_polygon = {};
   bool has_hints = false;  ///< its polygons differ in their hints
   bool has_host = false;   ///< another polygon may lie inset in one of them
+
+  [[nodiscard]] auto polygons() const { return ids_between(first_polygon, past_polygon); }
 };
 
 /// The subdivisions in which one polygon may lie inset in others: facets of several input
@@ -41,13 +52,16 @@ struct Subdivision {
 /// each), so that subdivisions know steps between polygons that the facet has not.
 struct Subdivisions {
   std::vector<Vec3> points;
-  std::vector<SubdivisionEdge> edges;
-  std::vector<SubdivisionPolygon> polygons;
-  std::vector<Subdivision> subdivisions;
+  IndexedVector<InputEdgeId, SubdivisionEdge> edges;
+  IndexedVector<InputPolygonId, SubdivisionPolygon> polygons;
+  IndexedVector<SubdivisionId, Subdivision> subdivisions;
 
-  [[nodiscard]] int to(int edge) const { return edges[at(edges[at(edge)].next)].from; }
-  [[nodiscard]] Vec3 vector(int edge) const {
-    return points[at(to(edge))] - points[at(edges[at(edge)].from)];
+  [[nodiscard]] int to(InputEdgeId edge) const { return edges[edges[edge].next].from; }
+  [[nodiscard]] Vec3 start(InputEdgeId edge) const {
+    return points[static_cast<std::size_t>(edges[edge].from)];
+  }
+  [[nodiscard]] Vec3 vector(InputEdgeId edge) const {
+    return start(edges[edge].next) - start(edge);
   }
 };
 

@@ -39,8 +39,7 @@ std::multiset<std::vector<int>> rectangles_of(const std::vector<WallPolygon>& po
          find_inset_rectangles(found, subdivision, solid.planes[0].normal, {}, work)) {
       CHECK(std::ranges::find(inset.polygons, inset.host) == inset.polygons.end());
       std::vector<int> of_input;
-      for (const int p : inset.polygons)
-        of_input.push_back(found.polygons[static_cast<std::size_t>(p)].source);
+      for (const InputPolygonId p : inset.polygons) of_input.push_back(found.polygons[p].source);
       std::ranges::sort(of_input);
       sources.insert(of_input);
     }

@@ -42,11 +42,11 @@ TEST_SUITE("kernel/segment") {
       REQUIRE(found.subdivisions.size() == 1);
       REQUIRE(std::ssize(found.polygons) == 1 + count);
       int paired = 0;
-      for (int e = 0; e < std::ssize(found.edges); ++e) {
-        const int twin = found.edges[at(e)].twin;
-        if (twin < 0) continue;
+      for (const InputEdgeId e : found.edges.ids()) {
+        const InputEdgeId twin = found.edges[e].twin;
+        if (!twin.is_valid()) continue;
         ++paired;
-        CHECK(found.edges[at(twin)].twin == e);
+        CHECK(found.edges[twin].twin == e);
       }
       CHECK(paired == 8);
     }
