@@ -30,24 +30,24 @@ class CornersAt {
     for (const PatchCorner& corner : patches.corners) ++first_[at(corner.vertex) + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     std::vector<int> next(first_.begin(), first_.end() - 1);
-    for (int c = 0; c < std::ssize(patches.corners); ++c)
-      corners_[at(next[at(patches.corners[at(c)].vertex)]++)] = c;
+    for (const PatchCornerId c : patches.corners.ids())
+      corners_[at(next[at(patches.corners[c].vertex)]++)] = c;
   }
 
-  [[nodiscard]] std::span<const int> operator[](int vertex) const {
+  [[nodiscard]] std::span<const PatchCornerId> operator[](int vertex) const {
     return std::span(corners_).subspan(at(first_[at(vertex)]),
                                        at(first_[at(vertex) + 1] - first_[at(vertex)]));
   }
 
  private:
   std::vector<int> first_;  ///< by vertex
-  std::vector<int> corners_;
+  std::vector<PatchCornerId> corners_;
 };
 
 class ApartProof {
  public:
   ApartProof(const SnappedBuilding& building, const ValidateOptions& options,
-             const Patches& patches, const std::vector<int>& twins)
+             const Patches& patches, const PatchCorners& twins)
       : building_(building),
         options_(options),
         patches_(patches.patches),
@@ -59,8 +59,8 @@ class ApartProof {
         common_(patches.patches.size(), 0),
         steps_left_(kStepsPerCorner * std::ssize(corners_)) {
     std::vector<Box> boxes;
-    for (int c = 0; c < std::ssize(corners_); ++c) {
-      if (twins_[at(c)] < c) continue;
+    for (const PatchCornerId c : corners_.ids()) {
+      if (twins_[c] < c) continue;
       edges_.push_back(c);
       boxes.push_back(box_of(std::array{point(from(c)), point(to(c))}));
     }
@@ -68,7 +68,7 @@ class ApartProof {
   }
 
   bool run() {
-    for (int p = 0; p < std::ssize(patches_); ++p)
+    for (const PatchId p : patches_.ids())
       if (may_fold_back(p) || !note_common_corners(p) || !is_apart_from_edges(p)) return false;
     std::ranges::sort(doubtful_);
     const auto doubles = std::ranges::unique(doubtful_);
@@ -80,31 +80,31 @@ class ApartProof {
  private:
   /// Where a vertex lies to the patch that is looked at.
   struct VertexPlace {
-    int patch = -1;
+    PatchId patch = {};
     int side = 0;  ///< of its plane; 0: in it
     bool is_corner = false;
   };
 
   [[nodiscard]] const MicrometrePoint& point(int vertex) const { return building_.point(vertex); }
-  [[nodiscard]] int from(int corner) const { return corners_[at(corner)].vertex; }
-  [[nodiscard]] int to(int corner) const { return from(corners_[at(corner)].next); }
-  [[nodiscard]] int patch_of(int corner) const { return corners_[at(corner)].patch; }
-  [[nodiscard]] bool are_of_one_polygon(int p, int q) const {
-    return patches_[at(p)].polygon == patches_[at(q)].polygon;
+  [[nodiscard]] int from(PatchCornerId corner) const { return corners_[corner].vertex; }
+  [[nodiscard]] int to(PatchCornerId corner) const { return from(corners_[corner].next); }
+  [[nodiscard]] PatchId patch_of(PatchCornerId corner) const { return corners_[corner].patch; }
+  [[nodiscard]] bool are_of_one_polygon(PatchId p, PatchId q) const {
+    return patches_[p].polygon == patches_[q].polygon;
   }
   bool may_go_on(std::int64_t steps) { return (steps_left_ -= steps) > 0; }
 
   /// A patch and one beside it are in one plane and look opposite ways: they lie on each other.
-  [[nodiscard]] bool may_fold_back(int p) const {
-    const MicrometreTriangle its = points_of(building_, patches_[at(p)].turn);
+  [[nodiscard]] bool may_fold_back(PatchId p) const {
+    const MicrometreTriangle its = points_of(building_, patches_[p].turn);
     const TrianglePlane plane(its);
     const auto is_in_plane = [&](int vertex) {
       return plane.side_of(point(vertex)) == 0 &&
              side_of(its[0], its[1], its[2], point(vertex)) == 0;
     };
-    for (int c = patches_[at(p)].first; c < patches_[at(p)].end; ++c) {
-      const int q = patch_of(twins_[at(c)]);
-      const TriangleCorners& other = patches_[at(q)].turn;
+    for (const PatchCornerId c : patches_[p].corners()) {
+      const PatchId q = patch_of(twins_[c]);
+      const TriangleCorners& other = patches_[q].turn;
       if (q < p || are_of_one_polygon(p, q) || !std::ranges::all_of(other, is_in_plane)) continue;
       const std::size_t axis = main_axis(its);
       const auto turns = [&](const MicrometreTriangle& t) {
@@ -118,29 +118,29 @@ class ApartProof {
 
   /// Patches that have corners in common which no common edges join are in doubt. False if too much
   /// has to be looked at.
-  bool note_common_corners(int p) {
-    std::vector<int> met;
-    const PlanePatch& patch = patches_[at(p)];
-    for (int c = patch.first; c < patch.end; ++c) {
+  bool note_common_corners(PatchId p) {
+    std::vector<PatchId> met;
+    const PlanePatch& patch = patches_[p];
+    for (const PatchCornerId c : patch.corners()) {
       const auto others = corners_at_[from(c)];
       if (!may_go_on(std::ssize(others))) return false;
-      for (const int other : others)
-        if (const int q = patch_of(other); q > p && common_[at(q)]++ == 0) met.push_back(q);
+      for (const PatchCornerId other : others)
+        if (const PatchId q = patch_of(other); q > p && common_[q]++ == 0) met.push_back(q);
     }
-    for (int c = patch.first; c < patch.end; ++c)
-      if (const int q = patch_of(twins_[at(c)]); q > p) --common_[at(q)];
-    for (const int q : met)
-      if (std::exchange(common_[at(q)], 0) > 1) doubt(p, q);
+    for (const PatchCornerId c : patch.corners())
+      if (const PatchId q = patch_of(twins_[c]); q > p) --common_[q];
+    for (const PatchId q : met)
+      if (std::exchange(common_[q], 0) > 1) doubt(p, q);
     return true;
   }
 
-  void doubt(int p, int q) {
+  void doubt(PatchId p, PatchId q) {
     if (!are_of_one_polygon(p, q)) doubtful_.emplace_back(std::min(p, q), std::max(p, q));
   }
 
-  bool is_apart_from_edges(int p) {
-    const PlanePatch& patch = patches_[at(p)];
-    for (int c = patch.first; c < patch.end; ++c) places_[at(from(c))] = {p, 0, true};
+  bool is_apart_from_edges(PatchId p) {
+    const PlanePatch& patch = patches_[p];
+    for (const PatchCornerId c : patch.corners()) places_[at(from(c))] = {p, 0, true};
     const TrianglePlane plane(points_of(building_, patch.turn));
     bool is_good = true;
     tree_.search([&](const Box& box) { return is_good && overlap(box, patch.box); },
@@ -148,20 +148,20 @@ class ApartProof {
     return is_good;
   }
 
-  const VertexPlace& place_of(int vertex, int p, const TrianglePlane& plane) {
+  const VertexPlace& place_of(int vertex, PatchId p, const TrianglePlane& plane) {
     VertexPlace& place = places_[at(vertex)];
     if (place.patch == p) return place;
     int side = plane.side_of(point(vertex));
     if (side == 0) {
-      const auto [a, b, c] = points_of(building_, patches_[at(p)].turn);
+      const auto [a, b, c] = points_of(building_, patches_[p].turn);
       side = side_of(a, b, c, point(vertex));
     }
     return place = {p, side, false};
   }
 
   /// The edge has nothing in common with the patch but a corner, or the pair is in doubt.
-  bool is_clear(int edge, int p, const TrianglePlane& plane) {
-    const int one = patch_of(edge), other = patch_of(twins_[at(edge)]);
+  bool is_clear(PatchCornerId edge, PatchId p, const TrianglePlane& plane) {
+    const PatchId one = patch_of(edge), other = patch_of(twins_[edge]);
     if (one == p || other == p || (are_of_one_polygon(one, p) && are_of_one_polygon(other, p)))
       return true;
     const VertexPlace &a = place_of(from(edge), p, plane), &b = place_of(to(edge), p, plane);
@@ -182,11 +182,11 @@ class ApartProof {
            });
   }
 
-  const std::vector<TriangleCorners>& triangles_of(int p) {
+  const std::vector<TriangleCorners>& triangles_of(PatchId p) {
     const auto [entry, is_new] = triangles_.try_emplace(p);
     if (!is_new) return entry->second;
-    const PlanePatch& patch = patches_[at(p)];
-    if (patch.end - patch.first == 3) {
+    const PlanePatch& patch = patches_[p];
+    if (patch.end.value - patch.first.value == 3) {
       entry->second = {patch.turn};
     } else {
       FindingList findings(building_, options_.budget);
@@ -197,7 +197,7 @@ class ApartProof {
   }
 
   /// By all triangles. False also if two have an edge in common that is none of both patches.
-  bool are_apart(int p, int q) {
+  bool are_apart(PatchId p, PatchId q) {
     const auto &mine = triangles_of(p), &theirs = triangles_of(q);
     if (!may_go_on(std::ssize(mine) * std::ssize(theirs))) return false;
     for (const TriangleCorners& one : mine)
@@ -214,10 +214,10 @@ class ApartProof {
     return true;
   }
 
-  [[nodiscard]] bool are_joined(int p, int q, int u, int v) const {
+  [[nodiscard]] bool are_joined(PatchId p, PatchId q, int u, int v) const {
     const auto runs = [&](int start, int end) {
-      return std::ranges::any_of(corners_at_[start], [&](int c) {
-        return patch_of(c) == p && to(c) == end && patch_of(twins_[at(c)]) == q;
+      return std::ranges::any_of(corners_at_[start], [&](PatchCornerId c) {
+        return patch_of(c) == p && to(c) == end && patch_of(twins_[c]) == q;
       });
     };
     return runs(u, v) || runs(v, u);
@@ -225,23 +225,23 @@ class ApartProof {
 
   const SnappedBuilding& building_;
   const ValidateOptions& options_;
-  const std::vector<PlanePatch>& patches_;
-  const std::vector<PatchCorner>& corners_;
-  const std::vector<int>& twins_;
+  const IndexedVector<PatchId, PlanePatch>& patches_;
+  const IndexedVector<PatchCornerId, PatchCorner>& corners_;
+  const PatchCorners& twins_;
   CornersAt corners_at_;
-  std::vector<int> edges_;                     ///< corners that they begin at, once each
-  BoxTree tree_;                               ///< of edges
-  std::vector<VertexPlace> places_;            ///< by vertex
-  std::vector<int> common_;                    ///< by patch, zero between calls
-  std::vector<std::pair<int, int>> doubtful_;  ///< patches
-  std::map<int, std::vector<TriangleCorners>> triangles_;  ///< of patches, once asked for
+  std::vector<PatchCornerId> edges_;    ///< corners that they begin at, once each
+  BoxTree tree_;                        ///< of edges
+  std::vector<VertexPlace> places_;     ///< by vertex
+  IndexedVector<PatchId, int> common_;  ///< zero between calls
+  std::vector<std::pair<PatchId, PatchId>> doubtful_;
+  std::map<PatchId, std::vector<TriangleCorners>> triangles_;  ///< once asked for
   std::int64_t steps_left_;
 };
 
 }  // namespace
 
 bool are_apart(const SnappedBuilding& building, const ValidateOptions& options,
-               const Patches& patches, const std::vector<int>& twins) {
+               const Patches& patches, const PatchCorners& twins) {
   return ApartProof(building, options, patches, twins).run();
 }
 

@@ -16,6 +16,6 @@ namespace oriel::detail {
 /// triangles of the patch, and where edges lie in a patch's plane, or two patches have corners in
 /// common that no common edges join, all their triangles are compared.
 bool are_apart(const SnappedBuilding& building, const ValidateOptions& options,
-               const Patches& patches, const std::vector<int>& twins);
+               const Patches& patches, const PatchCorners& twins);
 
 }  // namespace oriel::detail

@@ -130,18 +130,17 @@ class PatchMaker {
 
   void add_patch(std::size_t number, const std::vector<std::vector<int>>& rings,
                  const TurnCorners& turned) {
-    const auto count = [&] { return static_cast<int>(out_.corners.size()); };
-    PlanePatch patch{number, count(), 0, turned, {}};
-    const int index = static_cast<int>(out_.patches.size());
+    const auto next = [&] { return out_.corners.next_id(); };
+    PlanePatch patch{number, next(), {}, turned, {}};
     for (const auto& ring : rings) {
-      const int first = count();
+      const PatchCornerId first = next();
       for (const int v : ring) {
         patch.box.grow(in_doubles(point(v)));
-        out_.corners.push_back({v, index, count() + 1});
+        out_.corners.push_back({v, out_.patches.next_id(), PatchCornerId{next().value + 1}});
       }
       out_.corners.back().next = first;
     }
-    patch.end = count();
+    patch.end = next();
     out_.patches.push_back(patch);
   }
 

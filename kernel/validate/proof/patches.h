@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/indexed_vector.h"
 #include "kernel/validate/polygons/snapped.h"
 #include "kernel/validate/validate.h"
 
@@ -10,31 +11,41 @@
 
 namespace oriel::detail {
 
+/// A patch: Patches::patches.
+using PatchId = Id<struct PatchTag>;
+/// A corner of a patch: Patches::corners.
+using PatchCornerId = Id<struct PatchCornerTag>;
+
 /// A plane part of a polygon: the polygon itself if all its points are in one plane, exactly, else
 /// one of the triangles that judge() makes of it.
 struct PlanePatch {
   /// Index in SnappedBuilding::polygons.
   std::size_t polygon = 0;
   /// Its corners are those from `first` to before `end`.
-  int first = 0;
-  int end = 0;
+  PatchCornerId first = {};
+  PatchCornerId end = {};
   /// Three of its corners, not on a line, that turn as its outer ring does: they have its normal.
   std::array<int, 3> turn{};
   Box box;
+
+  [[nodiscard]] auto corners() const { return ids_between(first, end); }
 };
 
 /// Where a patch comes to a vertex.
 struct PatchCorner {
   int vertex = -1;
-  int patch = -1;
-  int next = -1;  ///< the corner after it in its ring
+  PatchId patch = {};
+  PatchCornerId next = {};  ///< the corner after it in its ring
 };
 
 /// The polygons of a building in plane patches.
 struct Patches {
-  std::vector<PlanePatch> patches;
-  std::vector<PatchCorner> corners;
+  IndexedVector<PatchId, PlanePatch> patches;
+  IndexedVector<PatchCornerId, PatchCorner> corners;
 };
+
+/// By corner another one.
+using PatchCorners = IndexedVector<PatchCornerId, PatchCornerId>;
 
 /// Nothing if a polygon has a finding, even by FoldsBetween::any_two, or if one comes to a vertex
 /// twice, which holes may do: then the patches would not tell how it goes on around that.
