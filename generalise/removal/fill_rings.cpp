@@ -1,6 +1,7 @@
 #include "generalise/invariants/stays.h"
 #include "generalise/removal/removal.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
 
 #include <algorithm>
@@ -28,20 +29,22 @@ constexpr std::int64_t kStepsPerRing = 32;
 class RingFiller {
  public:
   RingFiller(const Segmentation& segmentation, const SegmentOptions& options, Solid solid)
-      : segmentation_(segmentation), options_(options), solid_(std::move(solid)) {
-    for (int f = 0; f < std::ssize(solid_.facets); ++f)
-      for (const Loop& loop : solid_.facets[at(f)].loops)
+      : segmentation_(segmentation),
+        options_(options),
+        solid_(std::move(solid)),
+        goes_(solid_.facets.size(), 0) {
+    for (const FacetId f : goes_.ids())
+      for (const Loop& loop : solid_.facets[f.index()].loops)
         for (std::size_t i = 0; i < loop.size(); ++i)
           facet_at_[{loop[i], loop[(i + 1) % loop.size()]}] = f;
-    goes_.assign(solid_.facets.size(), 0);
   }
 
   /// The solid without what stands in the feature's ring; nothing if that hangs on something else.
   std::optional<Solid> without(const Feature& feature) {
     const Plane& plane = segmentation_.planes[feature.planes[0].index()];
     const std::vector<Outline> ring{outline_of_loop(segmentation_.vertices, feature.outline)};
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      const Facet& facet = solid_.facets[at(f)];
+    for (const FacetId f : goes_.ids()) {
+      const Facet& facet = solid_.facets[f.index()];
       if (!lies_in(solid_.planes[facet.plane.index()], plane)) continue;
       for (std::size_t loop = 1; loop < facet.loops.size(); ++loop)
         if (is_within(facet.loops[loop], ring, plane.normal) && !flood(f, facet.loops[loop]))
@@ -64,26 +67,26 @@ class RingFiller {
   }
 
   /// Marks all that hangs on the loop; false if its own facet does so another way.
-  bool flood(int own, const Loop& loop) {
-    std::vector<int> open;
+  bool flood(FacetId own, const Loop& loop) {
+    std::vector<FacetId> open;
     const auto visit = [&](int from, int to) {
-      const int facet = facet_at_.at({to, from});
-      if (goes_[at(facet)] != 0) return;
-      goes_[at(facet)] = 1;
+      const FacetId facet = facet_at_.at({to, from});
+      if (goes_[facet] != 0) return;
+      goes_[facet] = 1;
       open.push_back(facet);
     };
     for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
-    while (!open.empty() && goes_[at(own)] == 0) {
-      const int facet = open.back();
+    while (!open.empty() && goes_[own] == 0) {
+      const FacetId facet = open.back();
       open.pop_back();
-      for (const Loop& its : solid_.facets[at(facet)].loops)
+      for (const Loop& its : solid_.facets[facet.index()].loops)
         for (std::size_t i = 0; i < its.size(); ++i) {
           const int from = its[i], to = its[(i + 1) % its.size()];
           if (facet_at_.at({to, from}) == own && is_edge_of(loop, to, from)) continue;
           visit(from, to);
         }
     }
-    return goes_[at(own)] == 0;
+    return goes_[own] == 0;
   }
 
   [[nodiscard]] static bool is_edge_of(const Loop& loop, int from, int to) {
@@ -97,11 +100,11 @@ class RingFiller {
     Solid out = solid_;
     out.facets.clear();
     out.vertices.clear();
-    std::vector<FacetId> numbers(solid_.facets.size());
+    IndexedVector<FacetId, FacetId> numbers(solid_.facets.size());
     std::map<int, int> vertices;
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      if (goes_[at(f)] != 0) continue;
-      Facet facet = solid_.facets[at(f)];
+    for (const FacetId f : goes_.ids()) {
+      if (goes_[f] != 0) continue;
+      Facet facet = solid_.facets[f.index()];
       if (lies_in(solid_.planes[facet.plane.index()], plane))
         facet.loops.erase(
             std::remove_if(facet.loops.begin() + 1, facet.loops.end(),
@@ -113,12 +116,12 @@ class RingFiller {
           if (is_new) out.vertices.push_back(solid_.vertices[at(v)]);
           v = entry->second;
         }
-      numbers[at(f)] = FacetId{static_cast<int>(out.facets.size())};
+      numbers[f] = FacetId{static_cast<int>(out.facets.size())};
       out.facets.push_back(std::move(facet));
     }
     for (Shell& shell : out.shells) {
-      std::erase_if(shell.facets, [&](FacetId id) { return !numbers[id.index()].is_valid(); });
-      for (FacetId& id : shell.facets) id = numbers[id.index()];
+      std::erase_if(shell.facets, [&](FacetId id) { return !numbers[id].is_valid(); });
+      for (FacetId& id : shell.facets) id = numbers[id];
     }
     return out;
   }
@@ -126,8 +129,8 @@ class RingFiller {
   const Segmentation& segmentation_;
   const SegmentOptions& options_;
   Solid solid_;
-  std::map<std::pair<int, int>, int> facet_at_;  ///< by directed edge
-  std::vector<char> goes_;                       ///< by facet
+  std::map<std::pair<int, int>, FacetId> facet_at_;  ///< by directed edge
+  IndexedVector<FacetId, char> goes_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "kernel/mesh/manifold.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/disjoint_sets.h"
 
 #include <algorithm>
@@ -11,6 +12,9 @@
 namespace oriel::detail {
 
 namespace {
+
+/// A corner of a face, and the half-edge that leaves it.
+using FaceCornerId = Id<struct FaceCornerTag>;
 
 class FanSplitter {
  public:
@@ -34,13 +38,12 @@ class FanSplitter {
   }
 
  private:
-  /// A corner of a face, and the half-edge that leaves it.
   struct Corner {
     int face;
     /// The first point at its place.
     int place;
     /// The next corner of the face.
-    int next;
+    FaceCornerId next;
     /// The place of that.
     int to;
 
@@ -65,16 +68,16 @@ class FanSplitter {
     return first;
   }
 
-  static std::vector<Corner> list_corners(std::span<const std::vector<int>> faces,
-                                          const std::vector<int>& places) {
-    std::vector<Corner> corners;
+  static IndexedVector<FaceCornerId, Corner> list_corners(std::span<const std::vector<int>> faces,
+                                                          const std::vector<int>& places) {
+    IndexedVector<FaceCornerId, Corner> corners;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      const int first = static_cast<int>(corners.size());
+      const int first = corners.next_id().value;
       const int count = static_cast<int>(faces[f].size());
       for (int i = 0; i < count; ++i) {
         const int j = (i + 1) % count;
-        corners.push_back({static_cast<int>(f), places[at(faces[f][at(i)])], first + j,
-                           places[at(faces[f][at(j)])]});
+        corners.push_back({static_cast<int>(f), places[at(faces[f][at(i)])],
+                           FaceCornerId{first + j}, places[at(faces[f][at(j)])]});
       }
     }
     return corners;
@@ -82,14 +85,13 @@ class FanSplitter {
 
   /// Links the half-edges of every edge.
   void link_all() {
-    std::vector<int> order;
-    for (int c = 0; c < static_cast<int>(corners_.size()); ++c)
-      if (corners_[at(c)].place != corners_[at(c)].to) order.push_back(c);
-    std::ranges::sort(order, {}, [&](int c) { return std::pair(corners_[at(c)].edge(), c); });
+    std::vector<FaceCornerId> order;
+    for (const FaceCornerId c : corners_.ids())
+      if (corners_[c].place != corners_[c].to) order.push_back(c);
+    std::ranges::sort(order, {}, [&](FaceCornerId c) { return std::pair(corners_[c].edge(), c); });
     for (std::size_t begin = 0; begin < order.size();) {
       std::size_t end = begin + 1;
-      while (end < order.size() &&
-             corners_[at(order[end])].edge() == corners_[at(order[begin])].edge())
+      while (end < order.size() && corners_[order[end]].edge() == corners_[order[begin]].edge())
         ++end;
       link_edge({order.begin() + static_cast<std::ptrdiff_t>(begin),
                  order.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -97,11 +99,10 @@ class FanSplitter {
     }
   }
 
-  void link_edge(std::vector<int> half_edges) {
-    const bool is_manifold =
-        half_edges.size() == 1 ||
-        (half_edges.size() == 2 &&
-         corners_[at(half_edges[0])].is_forward() != corners_[at(half_edges[1])].is_forward());
+  void link_edge(std::vector<FaceCornerId> half_edges) {
+    const bool is_manifold = half_edges.size() == 1 ||
+                             (half_edges.size() == 2 && corners_[half_edges[0]].is_forward() !=
+                                                            corners_[half_edges[1]].is_forward());
     if (!is_manifold) {
       ++out_.non_manifold_edges;
       sort_around(half_edges);
@@ -110,11 +111,11 @@ class FanSplitter {
     // From the first half-edge after one that is forward: no material spans the ends of the list.
     const std::size_t count = half_edges.size();
     std::size_t first = 0;
-    while (first < count && !corners_[at(half_edges[first])].is_forward()) ++first;
+    while (first < count && !corners_[half_edges[first]].is_forward()) ++first;
     for (std::size_t i = 0; i < count && count > 1; ++i) {
-      const int one = half_edges[(first + 1 + i) % count];
-      const int other = half_edges[(first + 2 + i) % count];
-      if (corners_[at(one)].is_forward() || !corners_[at(other)].is_forward()) continue;
+      const FaceCornerId one = half_edges[(first + 1 + i) % count];
+      const FaceCornerId other = half_edges[(first + 2 + i) % count];
+      if (corners_[one].is_forward() || !corners_[other].is_forward()) continue;
       link(one, other);
       linked += 2;
     }
@@ -123,43 +124,44 @@ class FanSplitter {
 
   /// Makes two half-edges of opposite directions one edge: their corners at either end are in one
   /// fan.
-  void link(int c, int d) {
-    fans_.unite(c, corners_[at(d)].next);
-    fans_.unite(d, corners_[at(c)].next);
-    shells_.unite(corners_[at(c)].face, corners_[at(d)].face);
+  void link(FaceCornerId c, FaceCornerId d) {
+    fans_.unite(c.value, corners_[d].next.value);
+    fans_.unite(d.value, corners_[c].next.value);
+    shells_.unite(corners_[c].face, corners_[d].face);
   }
 
   /// Sorts the half-edges of an edge by the directions of their faces, counter-clockwise about it.
-  void sort_around(std::vector<int>& half_edges) const {
-    const auto [low, high] = corners_[at(half_edges[0])].edge();
+  void sort_around(std::vector<FaceCornerId>& half_edges) const {
+    const auto [low, high] = corners_[half_edges[0]].edge();
     const Vec3 axis = normalised(points_[at(high)] - points_[at(low)]);
-    const auto into_face = [&](int c) {
-      const Corner& corner = corners_[at(c)];
+    const auto into_face = [&](FaceCornerId c) {
+      const Corner& corner = corners_[c];
       return cross(normals_[at(corner.face)], corner.is_forward() ? axis : -axis);
     };
     const Vec3 zero = normalised(into_face(half_edges[0]));
     const Vec3 quarter = cross(axis, zero);
-    const auto angle = [&](int c) {
+    const auto angle = [&](FaceCornerId c) {
       const Vec3 d = into_face(c);
       const double radians = std::atan2(dot(d, quarter), dot(d, zero));
       // Rounding must not put what lies in the first face's direction behind it.
       constexpr double kSame = 1e-12;  // tolerance of doubles
       return radians < -kSame ? radians + 2 * 3.14159265358979323846 : radians;
     };
-    std::vector<std::pair<double, int>> order;
-    for (const int c : half_edges) order.emplace_back(angle(c), c);
+    std::vector<std::pair<double, FaceCornerId>> order;
+    for (const FaceCornerId c : half_edges) order.emplace_back(angle(c), c);
     std::ranges::sort(order);
     for (std::size_t i = 0; i < order.size(); ++i) half_edges[i] = order[i].second;
   }
 
   /// The first fan with a corner at a point keeps it.
   void double_vertices() {
-    std::vector<int> vertex_of(corners_.size(), -1);
+    IndexedVector<FaceCornerId, int> vertex_of(corners_.size(), -1);
     std::vector<bool> is_taken(points_.size());
-    for (std::size_t f = 0, c = 0; f < faces_.size(); ++f) {
+    int c = 0;
+    for (const std::vector<int>& face : faces_) {
       std::vector<int> corners;
-      for (const int v : faces_[f]) {
-        int& vertex = vertex_of[at(fans_.find(static_cast<int>(c++)))];
+      for (const int v : face) {
+        int& vertex = vertex_of[FaceCornerId{fans_.find(c++)}];
         if (vertex < 0 && is_taken[at(v)]) {
           vertex = static_cast<int>(points_.size() + out_.doubled.size());
           out_.doubled.push_back(v);
@@ -177,7 +179,7 @@ class FanSplitter {
   std::span<const Vec3> points_;
   std::span<const std::vector<int>> faces_;
   std::span<const Vec3> normals_;
-  std::vector<Corner> corners_;
+  IndexedVector<FaceCornerId, Corner> corners_;
   DisjointSets fans_;
   DisjointSets shells_;
   ManifoldFaces out_;

@@ -170,6 +170,9 @@ constexpr auto kOrders = [] {
   return orders;
 }();
 
+/// Facets of a body that hang together: PatchFinder.
+using GrownId = Id<struct GrownTag>;
+
 class PatchFinder {
  public:
   PatchFinder(const Boundary& body, bool is_hole, const PatchOptions& options)
@@ -178,7 +181,7 @@ class PatchFinder {
         world_(body.world()),
         is_hole_(is_hole),
         options_(options),
-        number_of_(at(body.facet_count()), -1) {}
+        number_of_(at(body.facet_count())) {}
 
   std::vector<Patch> run() {
     grow_all();
@@ -187,7 +190,8 @@ class PatchFinder {
     Component alone, widened;
     met_groups_.reserve(4 * grown_.size());
     const std::size_t most = options_.max_order < 0 ? 0 : at(options_.max_order);
-    for (int n = 0; n < std::ssize(grown_) && !world_.work.is_used_up(); ++n) {
+    for (const GrownId n : grown_.ids()) {
+      if (world_.work.is_used_up()) break;
       start_with(n);
       if (!find_sides(alone, std::max(most, kMostLimits))) continue;
       offer(alone);
@@ -204,7 +208,7 @@ class PatchFinder {
   std::vector<Component> components() {
     grow_all();
     std::vector<Component> all;
-    for (int n = 0; n < std::ssize(grown_); ++n) {
+    for (const GrownId n : grown_.ids()) {
       start_with(n);
       find_sides(all.emplace_back(), std::numeric_limits<std::size_t>::max());
       find_facets(all.back());
@@ -219,7 +223,7 @@ class PatchFinder {
     grown_.reserve(at(body_.facet_count()));
     rims_.reserve(at(body_.half_edge_count() - body_.dead_edge_count()));
     for (const BodyFacetId f : body_.facet_ids())
-      if (body_.is_alive(f) && number_of_[f] < 0 && !is_ground(f)) grow(f);
+      if (body_.is_alive(f) && !number_of_[f].is_valid() && !is_ground(f)) grow(f);
     find_neighbours();
   }
 
@@ -265,9 +269,10 @@ class PatchFinder {
 
   /// Collects the facets that hang together with `start`.
   void grow(BodyFacetId start) {
-    const int number = static_cast<int>(grown_.size());
+    const GrownId number = grown_.next_id();
     const std::size_t first = facets_.size(), first_rim = rims_.size(), first_side = sides_.size();
-    Grown& group = grown_.emplace_back();
+    grown_.emplace_back();
+    Grown& group = grown_[number];
     facets_.push_back(start);
     number_of_[start] = number;
     for (std::size_t i = first; i < facets_.size(); ++i) {
@@ -278,7 +283,7 @@ class PatchFinder {
       body_.for_each_edge(facets_[i], [&](EdgeId e) {
         const BodyFacetId g = body_.facet_of(body_.twin(e));
         if (number_of_[g] == number) return;
-        if (number_of_[g] >= 0 || !ties(e) || is_ground(g)) {
+        if (number_of_[g].is_valid() || !ties(e) || is_ground(g)) {
           rims_.push_back({e, g});
           return;
         }
@@ -312,17 +317,17 @@ class PatchFinder {
   }
 
   /// One group alone.
-  void start_with(int n) {
+  void start_with(GrownId n) {
     queue_[0] = n;
     widened_ = std::span(queue_).first(1);
-    at_hand_[at(n)].stamp = ++last_stamp_;
+    at_hand_[n].stamp = ++last_stamp_;
   }
-  [[nodiscard]] bool is_widened(int n) const { return at_hand_[at(n)].stamp == last_stamp_; }
+  [[nodiscard]] bool is_widened(GrownId n) const { return at_hand_[n].stamp == last_stamp_; }
 
   /// The groups at hand, several, were not at hand before.
   bool is_met_first() {
     std::uint64_t name = 0;  // that of the same groups in any order
-    for (const int n : widened_) name += scrambled(n);
+    for (const GrownId n : widened_) name += scrambled(n);
     const auto [first, last] = met_.equal_range(name);
     if (std::any_of(first, last, [&](const auto& met) { return is_at_hand(met.second); }))
       return false;
@@ -334,10 +339,10 @@ class PatchFinder {
   [[nodiscard]] bool is_at_hand(const ListRange& set) const {
     const auto groups = set.of(met_groups_);
     return groups.size() == widened_.size() &&
-           std::ranges::all_of(groups, [&](int n) { return is_widened(n); });
+           std::ranges::all_of(groups, [&](GrownId n) { return is_widened(n); });
   }
-  static std::uint64_t scrambled(int n) {
-    std::uint64_t x = (static_cast<std::uint64_t>(n) + 1) * 0x9E3779B97F4A7C15U;
+  static std::uint64_t scrambled(GrownId n) {
+    std::uint64_t x = (static_cast<std::uint64_t>(n.value) + 1) * 0x9E3779B97F4A7C15U;
     x ^= x >> 32;
     return x * x;
   }
@@ -348,8 +353,8 @@ class PatchFinder {
     std::vector<PlaneSide>& sides = component.sides;
     sides.clear();
     component.ground = -1;
-    for (const int n : widened_) {
-      const Grown& group = grown_[at(n)];
+    for (const GrownId n : widened_) {
+      const Grown& group = grown_[n];
       for (const auto& [side, other] : group.beyond.of(beyond_)) {
         if (is_widened(other) || std::ranges::find(sides, side) != sides.end()) continue;
         if (sides.size() == most) return false;
@@ -366,8 +371,8 @@ class PatchFinder {
   void find_facets(Component& component) const {
     component.facets.clear();
     component.rim.clear();
-    for (const int n : widened_) {
-      const Grown& group = grown_[at(n)];
+    for (const GrownId n : widened_) {
+      const Grown& group = grown_[n];
       const auto facets = group.facets.of(facets_);
       component.facets.insert(component.facets.end(), facets.begin(), facets.end());
       for (const RimEdge& e : group.rim.of(rims_))
@@ -381,7 +386,7 @@ class PatchFinder {
   /// Visits the sets of two or more of a component's split planes that leave one out at least, as
   /// bits of limit_bits_, and between which group `n`, which the component is, can be widened.
   template <class Visit>
-  void for_fewer_sides(int n, const Component& component, const Visit& visit) {
+  void for_fewer_sides(GrownId n, const Component& component, const Visit& visit) {
     boost::container::small_vector<PlaneSide, kMostLimits> sides;
     for (const PlaneSide side : component.sides)
       if (side != component.ground) sides.push_back(side);
@@ -391,22 +396,22 @@ class PatchFinder {
     for (std::size_t i = 0; i < sides.size(); ++i) {
       limit_bits_[at(sides[i])] = 1U << i;
       for (const int group : groups_by_side_[at(sides[i])])
-        at_hand_[at(group)].own_limits |= 1U << i;
+        at_hand_[GrownId{group}].own_limits |= 1U << i;
     }
     // Widened once more there, as few as they are: in ascending order, which ties are decided by.
     const auto sets = sets_to_widen_in(n, sides.size());
     for (auto set = sets.rbegin(); set != sets.rend(); ++set) visit(*set);
     for (const PlaneSide side : sides) {
       limit_bits_[at(side)] = 0;
-      for (const int group : groups_by_side_[at(side)]) at_hand_[at(group)].own_limits = 0;
+      for (const int group : groups_by_side_[at(side)]) at_hand_[GrownId{group}].own_limits = 0;
     }
   }
 
   void sort_groups_by_side() {
     Numbers group_of(sides_.size());
-    for (int n = 0; n < std::ssize(grown_); ++n)
-      for (std::size_t i = grown_[at(n)].sides.first; i < grown_[at(n)].sides.last; ++i)
-        group_of[i] = n;
+    for (const GrownId n : grown_.ids())
+      for (std::size_t i = grown_[n].sides.first; i < grown_[n].sides.last; ++i)
+        group_of[i] = n.value;
     groups_by_side_ = sort_into_buckets(sides_, 2 * at(world_.planes.size()));
     for (int& item : groups_by_side_.items) item = group_of[at(item)];
   }
@@ -414,11 +419,12 @@ class PatchFinder {
   /// Descending. A widening that fails tells of all sets with fewer planes, as it goes further in
   /// them: it becomes too large there as well, and runs into the same planes where the set has
   /// them.
-  boost::container::small_vector<unsigned, kMostSets> sets_to_widen_in(int n, std::size_t sides) {
+  boost::container::small_vector<unsigned, kMostSets> sets_to_widen_in(GrownId n,
+                                                                       std::size_t sides) {
     const unsigned all = (1U << sides) - 1;
     boost::container::small_vector<unsigned, kMostSets> sets;
     std::array<unsigned, kMostSets> run_into;
-    run_into[all] = at_hand_[at(n)].own_limits;
+    run_into[all] = at_hand_[n].own_limits;
     for (unsigned set = all - 1; set > 0; --set) {
       unsigned& met = run_into[set] = 0;
       for (unsigned others = all & ~set; others != 0; others &= others - 1)
@@ -434,22 +440,22 @@ class PatchFinder {
   /// Makes widened_ a group with all that lies beyond its rim but for the given planes (bits): a
   /// chimney's shaft with its head. Returns the planes that it runs into, and stops, if it does so;
   /// all, if it has more than half of the body's surface: then the rest is the part.
-  unsigned widen(int start, unsigned limits) {
-    std::vector<int>& groups = queue_;
+  unsigned widen(GrownId start, unsigned limits) {
+    std::vector<GrownId>& groups = queue_;
     groups[0] = start;
-    at_hand_[at(start)].stamp = ++last_stamp_;
+    at_hand_[start].stamp = ++last_stamp_;
     std::size_t size = 1;
     double area = 0;
     for (std::size_t i = 0; i < size; ++i) {
-      const Grown& group = grown_[at(groups[i])];
+      const Grown& group = grown_[groups[i]];
       area += group.area;
       const auto beyond = group.beyond.of(beyond_);
       world_.work.add(std::ssize(beyond));
       if (2 * area > surface_) return ~0U;
       unsigned met = 0;
       for (const auto& next : beyond) {  // without branches, which nobody could foresee
-        const int other = next.second;
-        auto& [stamp, own_limits] = at_hand_[at(other)];
+        const GrownId other = next.second;
+        auto& [stamp, own_limits] = at_hand_[other];
         const bool is_new = (stamp != last_stamp_) & ((limit_bits_[at(next.first)] & limits) == 0);
         const int all_bits = -static_cast<int>(is_new);
         groups[size] = other;
@@ -474,7 +480,7 @@ class PatchFinder {
   [[nodiscard]] bool can_be_capped(const Component& component) const {
     const auto& sides = component.sides;
     const std::ptrdiff_t order = std::ssize(sides) - (component.ground >= 0 ? 1 : 0);
-    if (widened_.size() == 1 && grown_[at(widened_[0])].facets.of(facets_).size() < 2) return false;
+    if (widened_.size() == 1 && grown_[widened_[0]].facets.of(facets_).size() < 2) return false;
     if (order < 2 || order > options_.max_order) return false;
     bool is_stepped = false;
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -492,9 +498,9 @@ class PatchFinder {
     if (component.ground >= 0) return true;
     Vec3 open;
     double area = 0, old_area = 0, covered = 0;
-    for (const int n : widened_) {
-      open = open + grown_[at(n)].open;
-      area += grown_[at(n)].area;
+    for (const GrownId n : widened_) {
+      open = open + grown_[n].open;
+      area += grown_[n].area;
     }
     boost::container::small_vector<Vec3, 4> normals;
     for (const PlaneSide side : component.sides) {
@@ -517,29 +523,29 @@ class PatchFinder {
   World& world_;
   bool is_hole_;
   const PatchOptions& options_;
-  IndexedVector<BodyFacetId, int> number_of_;  ///< the group that a facet is in
-  std::vector<Grown> grown_;
+  IndexedVector<BodyFacetId, GrownId> number_of_;  ///< the group that a facet is in
+  IndexedVector<GrownId, Grown> grown_;
   // Of the groups, one after the other.
   std::vector<BodyFacetId> facets_;
   std::vector<RimEdge> rims_;
   std::vector<PlaneSide> sides_;
-  std::vector<std::pair<PlaneSide, int>> beyond_;
+  std::vector<std::pair<PlaneSide, GrownId>> beyond_;
   double surface_ = 0;  ///< of the body
   /// A group as widenings ask about it.
   struct AtHand {
     int stamp = 0;            ///< of the last widening that has met it
     unsigned own_limits = 0;  ///< the bits of its own sides in for_fewer_sides()
   };
-  std::vector<AtHand> at_hand_;
+  IndexedVector<GrownId, AtHand> at_hand_;
   int last_stamp_ = 0;
-  std::vector<int> queue_;        ///< room for all groups, and what is put there in vain
-  std::span<const int> widened_;  ///< the groups at hand, the first in queue_
+  std::vector<GrownId> queue_;        ///< room for all groups, and what is put there in vain
+  std::span<const GrownId> widened_;  ///< the groups at hand, the first in queue_
   /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
   std::vector<unsigned> limit_bits_;
   Buckets groups_by_side_;  ///< by one of their own sides; empty: not sorted yet
   /// Groups that were at hand together, in met_groups_, by a name that others hardly have.
   std::unordered_multimap<std::uint64_t, ListRange> met_;
-  std::vector<int> met_groups_;
+  std::vector<GrownId> met_groups_;
   std::vector<Patch> patches_;
 };
 

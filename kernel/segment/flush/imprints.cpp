@@ -59,16 +59,19 @@ class ImprintWriter {
 
   /// Which cell facet has an input polygon, and which features lie in which plane.
   void find_homes() {
-    for (int i = 0; i < std::ssize(out_.features); ++i)
-      if (out_.features[at(i)].is_uncut)  // outer ones first
-        for (const int source : out_.features[at(i)].source_polygons) ring_[source] = FeatureId{i};
-    for (int c = 0; c < std::ssize(out_.cells); ++c) {
-      const auto& facets = out_.cells[at(c)].facets;
-      for (int f = 0; f < std::ssize(facets); ++f)
-        for (const int polygon : facets[at(f)].polygons) home_[polygon] = {CellId{c}, f};
+    const auto features = ids_below<FeatureId>(out_.features.size());
+    for (const FeatureId i : features)
+      if (feature(i).is_uncut)  // outer ones first
+        for (const int source : feature(i).source_polygons) ring_[source] = i;
+    for (const CellId c : ids_below<CellId>(out_.cells.size())) {
+      int number = 0;
+      for (const Facet& facet : out_.cells[c.index()].facets) {
+        for (const int polygon : facet.polygons) home_[polygon] = {c, number};
+        ++number;
+      }
     }
-    for (int i = 0; i < std::ssize(out_.features); ++i) {
-      const Feature& f = out_.features[at(i)];
+    for (const FeatureId i : features) {
+      const Feature& f = feature(i);
       if (f.planes.empty()) continue;
       const Plane& plane = out_.planes[f.planes.front().index()];
       std::vector<Vec3> cap;
@@ -76,8 +79,7 @@ class ImprintWriter {
         if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
           cap.push_back(p);
       }
-      caps_on_[f.planes.front()].push_back(
-          {FeatureId{i}, detail::axes_in(plane.normal).reach_of(cap)});
+      caps_on_[f.planes.front()].push_back({i, detail::axes_in(plane.normal).reach_of(cap)});
     }
     for (auto& [plane, caps] : caps_on_)
       std::ranges::stable_sort(caps, {}, [](const CapInPlane& r) { return r.cap.u0; });

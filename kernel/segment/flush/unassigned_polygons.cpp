@@ -1,6 +1,7 @@
 #include "kernel/segment/flush/unassigned_polygons.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "model/vec3.h"
@@ -84,14 +85,13 @@ class Joiner {
   bool join(const UnassignedPolygon& polygon) {
     std::optional<std::pair<double, FeatureId>> smallest;
     work_.add(std::ssize(out_.features));
-    for (int i = 0; i < std::ssize(out_.features); ++i) {
-      const Feature& f = out_.features[at(i)];
+    for (const FeatureId i : ids_below<FeatureId>(out_.features.size())) {
+      const Feature& f = out_.features[i.index()];
       if (f.sense != Sense::hole && f.sense != Sense::imprint) continue;
       const Vec3 normal = out_.planes[f.planes.front().index()].normal;
       if (!is_parallel(polygon.normal, normal, kAskew_deg)) continue;
       const auto covered = covered_m2(polygon, f, normal);
-      if (covered && (!smallest || std::pair(*covered, FeatureId{i}) < *smallest))
-        smallest = {*covered, FeatureId{i}};
+      if (covered && (!smallest || std::pair(*covered, i) < *smallest)) smallest = {*covered, i};
     }
     if (!smallest) return false;
     add_to(smallest->second, polygon);
@@ -147,8 +147,8 @@ class Joiner {
 
   /// Makes the polygon an imprint of the facet in which it lies.
   void lay(const UnassignedPolygon& polygon) {
-    for (int c = 0; c < std::ssize(out_.cells); ++c) {
-      const Cell& cell = out_.cells[at(c)];
+    for (const CellId c : ids_below<CellId>(out_.cells.size())) {
+      const Cell& cell = out_.cells[c.index()];
       work_.add(std::ssize(cell.facets));
       for (int f = 0; f < std::ssize(cell.facets); ++f) {
         const Facet& facet = cell.facets[at(f)];
@@ -156,7 +156,7 @@ class Joiner {
         if (facet.polygons.empty()) continue;
         const Plane& plane = out_.planes[facet.plane.index()];
         if (!lies_in(polygon, facet, plane)) continue;
-        add_imprint(polygon, {CellId{c}, f}, plane);
+        add_imprint(polygon, {c, f}, plane);
         return;
       }
     }
@@ -203,12 +203,12 @@ class Joiner {
   [[nodiscard]] PlaneId plane_of(const Cell& cell, const Plane& plane, CellFacet home) const {
     const PlaneId own = cell.facets[at(home.facet)].plane;
     if (cell.sign > 0) return own;
-    for (int p = 0; p < std::ssize(out_.planes); ++p) {
-      const Plane& other = out_.planes[at(p)];
+    for (const PlaneId p : ids_below<PlaneId>(out_.planes.size())) {
+      const Plane& other = out_.planes[p.index()];
       if (other.offset == -plane.offset && other.coefficients[0] == -plane.coefficients[0] &&
           other.coefficients[1] == -plane.coefficients[1] &&
           other.coefficients[2] == -plane.coefficients[2])
-        return PlaneId{p};
+        return p;
     }
     return own;
   }
