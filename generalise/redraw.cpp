@@ -1,6 +1,7 @@
 #include "generalise/generalise.h"
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -244,12 +245,12 @@ Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
       !generalised.is_drawn_anew)
     return {labelled, {}, {}};
   std::vector<FeatureId> imprints;
-  for (int i = 0; i < std::ssize(segmentation.features); ++i)
-    if (segmentation.features[at(i)].sense == Sense::imprint &&
-        !std::ranges::binary_search(generalised.removed, FeatureId{i}) &&
-        !std::ranges::binary_search(generalised.changed, FeatureId{i}) &&
-        !std::ranges::binary_search(generalised.undrawn, FeatureId{i}))
-      imprints.push_back(FeatureId{i});
+  for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size()))
+    if (segmentation.features[i.index()].sense == Sense::imprint &&
+        !std::ranges::binary_search(generalised.removed, i) &&
+        !std::ranges::binary_search(generalised.changed, i) &&
+        !std::ranges::binary_search(generalised.undrawn, i))
+      imprints.push_back(i);
   generalised.solid =
       draw_imprints(std::move(generalised.solid), segmentation, imprints, tolerances);
   return Redrawer(building, labelled, std::move(generalised), tolerances)

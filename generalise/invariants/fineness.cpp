@@ -1,6 +1,7 @@
 #include "generalise/invariants/fineness.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
@@ -50,8 +51,8 @@ class OwnerBoxes {
   static std::vector<FeatureId> left_of(const Segmentation& segmentation,
                                         const std::vector<FeatureId>& removed) {
     std::vector<FeatureId> left;
-    for (int i = 0; i < std::ssize(segmentation.features); ++i)
-      if (!std::ranges::binary_search(removed, FeatureId{i})) left.push_back(FeatureId{i});
+    for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size()))
+      if (!std::ranges::binary_search(removed, i)) left.push_back(i);
     return left;
   }
   [[nodiscard]] std::vector<Box> boxes() const {
@@ -207,8 +208,8 @@ std::vector<std::pair<Vec3, Vec3>> edges_of_staying(const Segmentation& segmenta
     if (stays(cell.feature))
       for (const Facet& facet : cell.facets)
         for (const Loop& loop : facet.loops) add(loop);
-  for (int i = 0; i < std::ssize(segmentation.features); ++i)
-    if (stays(FeatureId{i})) add(segmentation.features[at(i)].outline);
+  for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size()))
+    if (stays(i)) add(segmentation.features[i.index()].outline);
   return edges;
 }
 

@@ -2,6 +2,7 @@
 
 #include "generalise/invariants/fineness.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/boxes.h"
 
 #include <algorithm>
@@ -45,9 +46,9 @@ bool loses_what_stays(const Solid& before, const Solid& left, const Segmentation
 
 StayingFeatures::StayingFeatures(const Segmentation& segmentation,
                                  const std::vector<FeatureId>& removed) {
-  for (int i = 0; i < std::ssize(segmentation.features); ++i) {
-    if (std::ranges::binary_search(removed, FeatureId{i})) continue;
-    const Feature& feature = segmentation.features[at(i)];
+  for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size())) {
+    if (std::ranges::binary_search(removed, i)) continue;
+    const Feature& feature = segmentation.features[i.index()];
     if (!feature.outline.empty())
       outlines_.push_back(segmentation.vertices[at(feature.outline[0])].point);
     polygons_.insert(polygons_.end(), feature.source_polygons.begin(),

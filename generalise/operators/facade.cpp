@@ -3,6 +3,7 @@
 #include "generalise/operators/separate.h"
 #include "kernel/attach/clearance.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 
 #include <algorithm>
 #include <array>
@@ -66,11 +67,11 @@ FacadeRoom::FacadeRoom(const Solid& solid, const Segmentation& segmentation, con
       lines_.push_back(
           {dot(p, host.u), dot(p, host.v), dot(q, host.u), dot(q, host.v), is_foot, {}, a, b});
     }
-  for (int f = 0; f < std::ssize(segmentation.features); ++f) {
-    const Feature& other = segmentation.features[at(f)];
+  for (const FeatureId f : ids_below<FeatureId>(segmentation.features.size())) {
+    const Feature& other = segmentation.features[f.index()];
     if (other.sense == Sense::imprint && !other.source_polygons.empty() &&
         std::ranges::includes(facet.polygons, other.source_polygons))
-      add_outline(extents_of(host, segmentation, other), {f});
+      add_outline(extents_of(host, segmentation, other), f);
   }
 }
 

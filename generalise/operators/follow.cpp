@@ -3,6 +3,7 @@
 #include "generalise/operators/facade.h"
 #include "kernel/attach/move_facet.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 
 #include <algorithm>
@@ -86,10 +87,10 @@ std::optional<FacetId> facet_across(const Solid& solid, const Host& host, const 
                             std::abs(dot(q, side.out) - side.at) < kOnEdge_m &&
                             dot(q - p, along) > 0 && dot(p, along) < last && dot(q, along) > first;
       if (!is_there) continue;
-      for (int f = 0; f < std::ssize(solid.facets); ++f)
-        for (const Loop& other : solid.facets[at(f)].loops)
+      for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
+        for (const Loop& other : solid.facets[f.index()].loops)
           for (std::size_t j = 0; j < other.size(); ++j)
-            if (other[j] == b && other[(j + 1) % other.size()] == a) return FacetId{f};
+            if (other[j] == b && other[(j + 1) % other.size()] == a) return f;
     }
   return std::nullopt;
 }
@@ -118,12 +119,12 @@ Placed raise_box(const Solid& solid, const Host& host, const Extents& where,
 std::vector<FacetId> facets_of(const Solid& solid, const Segmentation& segmentation,
                                const std::vector<FeatureId>& features) {
   std::vector<FacetId> found;
-  for (int f = 0; f < std::ssize(solid.facets); ++f)
+  for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
     if (std::ranges::any_of(features, [&](FeatureId id) {
           const auto& its = segmentation.features[id.index()].source_polygons;
-          return !its.empty() && its == solid.facets[at(f)].polygons;
+          return !its.empty() && its == solid.facets[f.index()].polygons;
         }))
-      found.push_back({f});
+      found.push_back(f);
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include "kernel/attach/clearance.h"
 #include "kernel/attach/move_facet.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
@@ -38,12 +39,12 @@ std::optional<FacetId> level_at_foot(const Solid& solid, const Host& host, const
       const bool is_low = std::abs(dot(p, host.v) - where.v0) < kOnEdge_m &&
                           std::abs(dot(q, host.v) - where.v0) < kOnEdge_m;
       if (!is_low || dot(p, host.u) > middle || dot(q, host.u) < middle) continue;
-      for (int f = 0; f < std::ssize(solid.facets); ++f)
-        for (const Loop& other : solid.facets[at(f)].loops)
+      for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
+        for (const Loop& other : solid.facets[f.index()].loops)
           for (std::size_t j = 0; j < other.size(); ++j)
             if (other[j] == b && other[(j + 1) % other.size()] == a &&
-                std::abs(solid.planes[solid.facets[at(f)].plane.index()].normal.z) > 0.9)
-              return FacetId{f};
+                std::abs(solid.planes[solid.facets[f.index()].plane.index()].normal.z) > 0.9)
+              return f;
     }
   return std::nullopt;
 }
@@ -128,12 +129,12 @@ Plane parallel(const Solid& solid, const Plane& plane, double out_m, int sign) {
 }  // namespace
 
 std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point) {
-  for (int f = 0; f < std::ssize(solid.facets); ++f) {
-    const Facet& facet = solid.facets[at(f)];
+  for (const FacetId f : ids_below<FacetId>(solid.facets.size())) {
+    const Facet& facet = solid.facets[f.index()];
     const Plane& its = solid.planes[facet.plane.index()];
     if (its.coefficients != plane.coefficients || its.offset != plane.offset) continue;
     if (!contains(outlines_of(solid.vertices, facet.loops), its.normal, point)) continue;
-    Host host{{f}, its, {}, {}, its.normal};
+    Host host{f, its, {}, {}, its.normal};
     const Vec3 across = cross(kUp, its.normal);
     host.u = length(across) > 0.01 ? normalised(across) : along_a_wall(solid);
     host.v = cross(host.n, host.u);

@@ -2,6 +2,7 @@
 
 #include "kernel/attach/drop_facet.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
 
 #include <algorithm>
@@ -74,12 +75,12 @@ class EdgeClearer {
     double most_m = 0;
     for (const ShortEdge& edge : short_) most_m = std::max(most_m, edge.length_m);
     edges_.clear();
-    for (int f = 0; f < std::ssize(solid_.facets); ++f)
-      for (const Loop& loop : solid_.facets[at(f)].loops)
+    for (const FacetId f : ids_below<FacetId>(solid_.facets.size()))
+      for (const Loop& loop : solid_.facets[f.index()].loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const Vec3 p = solid_.vertices[at(loop[i])].point;
           const Vec3 q = solid_.vertices[at(loop[(i + 1) % loop.size()])].point;
-          if (length(q - p) <= most_m) edges_.push_back(facet_edge(p, q, FacetId{f}));
+          if (length(q - p) <= most_m) edges_.push_back(facet_edge(p, q, f));
         }
     std::ranges::stable_sort(edges_, is_before);
   }

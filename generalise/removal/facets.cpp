@@ -1,6 +1,7 @@
 #include "generalise/removal/facets.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "model/vec3.h"
@@ -37,10 +38,10 @@ struct ShellPiece {
 std::vector<ShellPiece> pieces_of(const Solid& solid) {
   const std::vector<int> number = connected(solid);
   std::map<int, ShellPiece> pieces;
-  for (int f = 0; f < std::ssize(solid.facets); ++f) {
-    const Facet& facet = solid.facets[at(f)];
-    ShellPiece& piece = pieces[number[at(f)]];
-    piece.shell.facets.push_back(FacetId{f});
+  for (const FacetId f : ids_below<FacetId>(solid.facets.size())) {
+    const Facet& facet = solid.facets[f.index()];
+    ShellPiece& piece = pieces[number[f.index()]];
+    piece.shell.facets.push_back(f);
     const Plane& plane = solid.planes[facet.plane.index()];
     piece.volume_m3 += plane.offset_m * area_m2(solid.vertices, facet, plane.normal) / 3;
     for (const int v : facet.loops[0]) piece.box.grow(solid.vertices[at(v)].point);
@@ -53,9 +54,10 @@ std::vector<ShellPiece> pieces_of(const Solid& solid) {
 }  // namespace
 
 void for_each_edge(const Solid& solid, const std::function<void(int, int, int)>& visit) {
-  for (int f = 0; f < std::ssize(solid.facets); ++f)
-    for (const Loop& loop : solid.facets[at(f)].loops)
-      for (std::size_t i = 0; i < loop.size(); ++i) visit(f, loop[i], loop[(i + 1) % loop.size()]);
+  for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
+    for (const Loop& loop : solid.facets[f.index()].loops)
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        visit(f.value, loop[i], loop[(i + 1) % loop.size()]);
 }
 
 Plane plane_of(std::span<const Vertex> vertices, const Loop& outer) {

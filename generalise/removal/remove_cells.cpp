@@ -2,6 +2,7 @@
 #include "generalise/removal/removal.h"
 #include "generalise/removal/take_out.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -58,8 +59,8 @@ class PolygonsAround {
  public:
   /// Points up to `weld_m` off a plane are in it, as vertices may be.
   PolygonsAround(const Solid& solid, double weld_m) : solid_(solid), weld_m_(weld_m) {
-    for (int f = 0; f < std::ssize(solid.facets); ++f)
-      facets_along_[direction_of(solid.planes[solid.facets[at(f)].plane.index()])].push_back(f);
+    for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
+      facets_along_[direction_of(solid.planes[solid.facets[f.index()].plane.index()])].push_back(f);
   }
 
   /// The input polygons of the facets of the solid that a figure in a plane lies in, whichever way
@@ -71,8 +72,8 @@ class PolygonsAround {
     const auto point = detail::interior_point(shape, plane.normal);
     if (!point) return {};
     std::set<int> polygons;
-    for (const int f : near->second) {
-      const Facet& facet = solid_.facets[at(f)];
+    for (const FacetId f : near->second) {
+      const Facet& facet = solid_.facets[f.index()];
       const Plane& its = solid_.planes[facet.plane.index()];
       const bool is_same = its.coefficients == plane.coefficients ? its.offset == plane.offset
                                                                   : its.offset == -plane.offset;
@@ -88,7 +89,7 @@ class PolygonsAround {
  private:
   const Solid& solid_;
   double weld_m_;
-  std::map<std::array<std::int64_t, 3>, std::vector<int>> facets_along_;  ///< by direction
+  std::map<std::array<std::int64_t, 3>, std::vector<FacetId>> facets_along_;  ///< by direction
 };
 
 class CellRemover {
@@ -215,16 +216,16 @@ class CellRemover {
   [[nodiscard]] std::vector<CellId> cells_without(
       const std::vector<std::optional<bool>>& fates) const {
     std::vector<CellId> cells;
-    for (int c = 0; c < std::ssize(segmentation_.cells); ++c)
-      if (fate_of({c}, fates).value_or(segmentation_.cells[at(c)].sign > 0)) cells.push_back({c});
+    for (const CellId c : ids_below<CellId>(segmentation_.cells.size()))
+      if (fate_of(c, fates).value_or(segmentation_.cells[c.index()].sign > 0)) cells.push_back(c);
     return cells;
   }
   /// The cells of what goes.
   [[nodiscard]] std::vector<CellId> cells_with(
       const std::vector<std::optional<bool>>& fates) const {
     std::vector<CellId> cells;
-    for (int c = 0; c < std::ssize(segmentation_.cells); ++c)
-      if (fate_of({c}, fates)) cells.push_back({c});
+    for (const CellId c : ids_below<CellId>(segmentation_.cells.size()))
+      if (fate_of(c, fates)) cells.push_back(c);
     return cells;
   }
   [[nodiscard]] std::optional<bool> fate_of(CellId cell,

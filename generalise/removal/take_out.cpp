@@ -2,6 +2,7 @@
 
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/segment/complex/body_without.h"
 #include "model/cell_complex.h"
@@ -50,8 +51,8 @@ class SolidOfFaces {
       : segmentation_(segmentation), complex_(complex) {
     out_.grid_m = before.grid_m;
     out_.planes = before.planes;
-    for (int p = 0; p < std::ssize(out_.planes); ++p)
-      planes_.emplace(exact_key_of(out_.planes[at(p)]), PlaneId{p});
+    for (const PlaneId p : ids_below<PlaneId>(out_.planes.size()))
+      planes_.emplace(exact_key_of(out_.planes[p.index()]), p);
   }
 
   Solid run() {

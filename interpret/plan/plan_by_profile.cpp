@@ -2,6 +2,7 @@
 #include "interpret/pack/pack.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "model/tolerances.h"
 
 #include <algorithm>
@@ -81,12 +82,12 @@ FeatureId MainParts::holder_of_ridge(const std::vector<char>& goes,
   FeatureId highest;
   double top_m = rest_m + sizes_.c_m;
   if (rest_m == kNone) return highest;
-  for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
-    const Feature& feature = segmentation_.features[at(i)];
-    if (goes_for_size[at(i)] == 0 || feature.sense != Sense::protrusion) continue;
+  for (const FeatureId i : ids_below<FeatureId>(segmentation_.features.size())) {
+    const Feature& feature = segmentation_.features[i.index()];
+    if (goes_for_size[i.index()] == 0 || feature.sense != Sense::protrusion) continue;
     if (feature.box.max.z <= top_m) continue;
     top_m = feature.box.max.z;
-    highest = FeatureId{i};
+    highest = i;
   }
   return highest;
 }
@@ -112,13 +113,13 @@ class ProfilePlanner {
   }
 
   Plan run() {
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (is_open_[at(i)] != 0) decide({i});
+    for (const FeatureId i : ids_below<FeatureId>(segmentation_.features.size()))
+      if (is_open_[i.index()] != 0) decide(i);
     keep_ridge();
     spare_carriers();
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (const std::string& why = reason_[at(i)]; !why.empty())
-        plan_.steps.push_back(step_for({i}, why));
+    for (const FeatureId i : ids_below<FeatureId>(segmentation_.features.size()))
+      if (const std::string& why = reason_[i.index()]; !why.empty())
+        plan_.steps.push_back(step_for(i, why));
     std::ranges::stable_sort(plan_.steps, {}, &Step::feature);
     return std::move(plan_);
   }
@@ -253,8 +254,8 @@ class ProfilePlanner {
   /// stays too.
   void spare_carriers() {
     std::vector<FeatureId> staying;
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (is_held_[at(i)] != 0) staying.push_back({i});
+    for (const FeatureId i : ids_below<FeatureId>(segmentation_.features.size()))
+      if (is_held_[i.index()] != 0) staying.push_back(i);
     while (!staying.empty()) {
       const Feature& feature = segmentation_.features[staying.back().index()];
       const bool stands = profile_.on_ground && reaches_ground(staying.back());

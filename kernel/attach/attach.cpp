@@ -4,6 +4,7 @@
 #include "kernel/attach/new_facet.h"
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -346,15 +347,15 @@ class Attacher {
     for (const Vec3 p : points_) box.grow(p);
     const double reach_m =
         4 * clearance_.least_m;  // corners of sharp bodies grow further than their planes
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      if (std::ranges::find(contacts_, FacetId{f}) != contacts_.end()) continue;
-      const Facet& other = solid_.facets[at(f)];
+    for (const FacetId f : ids_below<FacetId>(solid_.facets.size())) {
+      if (std::ranges::find(contacts_, f) != contacts_.end()) continue;
+      const Facet& other = solid_.facets[f.index()];
       if (is_far(other, box, reach_m)) continue;
       const Vec3 normal = solid_.planes[other.plane.index()].normal;
       if (detail::area_within(solid_.vertices, other, normal, limits) <= detail::kTouch_m2)
         continue;
-      const bool is_own = std::ranges::find(clearance_.own, FacetId{f}) != clearance_.own.end();
-      const double near_m = is_own ? 0 : nearest_before(FacetId{f});
+      const bool is_own = std::ranges::find(clearance_.own, f) != clearance_.own.end();
+      const double near_m = is_own ? 0 : nearest_before(f);
       if (near_m >= clearance_.least_m ||
           detail::area_within(solid_.vertices, other, normal, grown_by(kNearly * near_m)) >
               detail::kTouch_m2)

@@ -1,6 +1,7 @@
 #include "kernel/attach/clearance.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 
@@ -71,9 +72,9 @@ bool is_in_the_way(const Solid& solid, FacetId facet, const Moves& moves) {
       return dot(limit.normal, solid.vertices[at(v)].point) <= limit.offset_m;
     });
   };
-  for (int f = 0; f < std::ssize(solid.facets); ++f) {
-    if (FacetId{f} == facet) continue;
-    const Facet& other = solid.facets[at(f)];
+  for (const FacetId f : ids_below<FacetId>(solid.facets.size())) {
+    if (f == facet) continue;
+    const Facet& other = solid.facets[f.index()];
     bool is_beside = false;
     for (const Loop& loop : other.loops)
       for (const int v : loop) {

@@ -2,6 +2,7 @@
 
 #include "kernel/attach/clearance.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/geometry/exact.h"
 
@@ -46,17 +47,17 @@ class FacetDropper {
   bool find_sides() {
     const std::size_t n = corners_.size();
     sides_.assign(n, {});
-    std::map<int, std::set<int>> facets_at;
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      if (FacetId{f} == dropped_) continue;
-      for (const Loop& loop : solid_.facets[at(f)].loops)
+    std::map<int, std::set<FacetId>> facets_at;
+    for (const FacetId f : ids_below<FacetId>(solid_.facets.size())) {
+      if (f == dropped_) continue;
+      for (const Loop& loop : solid_.facets[f.index()].loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const auto corner = std::ranges::find(corners_, loop[i]);
           if (corner == corners_.end()) continue;
           facets_at[loop[i]].insert(f);
           const auto k = static_cast<std::size_t>(corner - corners_.begin());
           const std::size_t before = (k + n - 1) % n;
-          if (loop[(i + 1) % loop.size()] == corners_[before]) sides_[before] = FacetId{f};
+          if (loop[(i + 1) % loop.size()] == corners_[before]) sides_[before] = f;
         }
     }
     const auto has_three = [&](std::size_t i) {

@@ -2,6 +2,7 @@
 
 #include "kernel/attach/clearance.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 
 #include <algorithm>
@@ -49,10 +50,10 @@ class FacetMover {
   };
 
   void find_planes() {
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      if (FacetId{f} == moving_) continue;
-      const Plane& plane = solid_.planes[solid_.facets[at(f)].plane.index()];
-      for (const Loop& loop : solid_.facets[at(f)].loops)
+    for (const FacetId f : ids_below<FacetId>(solid_.facets.size())) {
+      if (f == moving_) continue;
+      const Plane& plane = solid_.planes[solid_.facets[f.index()].plane.index()];
+      for (const Loop& loop : solid_.facets[f.index()].loops)
         for (const int v : loop)
           if (const auto found = moved_.find(v); found != moved_.end()) add(found->second, plane);
     }

@@ -3,6 +3,7 @@
 #include "kernel/attach/clearance.h"
 #include "kernel/attach/new_facet.h"
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -85,16 +86,16 @@ class FootTracer {
 
   /// The highest facet that the edge between the last side and the first comes out of.
   bool find_start() {
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      const Plane& plane = plane_of({f});
+    for (const FacetId f : ids_below<FacetId>(solid_.facets.size())) {
+      const Plane& plane = plane_of(f);
       if (plane.normal.z <= kRoof) continue;
       const auto corner = meeting(plane, sides_.back(), sides_.front());
       if (!corner ||
-          !detail::contains(detail::outlines_of(solid_.vertices, solid_.facets[at(f)].loops),
+          !detail::contains(detail::outlines_of(solid_.vertices, solid_.facets[f.index()].loops),
                             plane.normal, *corner))
         continue;
       if (!line_.empty() && line_[0].point.z >= corner->z) continue;
-      line_ = {{*corner, true, 0, {f}, {-1, -1}}};
+      line_ = {{*corner, true, 0, f, {-1, -1}}};
     }
     return !line_.empty();
   }
@@ -158,10 +159,10 @@ class FootTracer {
   }
 
   [[nodiscard]] std::optional<FacetId> facet_with(int a, int b) const {
-    for (int f = 0; f < std::ssize(solid_.facets); ++f)
-      for (const Loop& loop : solid_.facets[at(f)].loops)
+    for (const FacetId f : ids_below<FacetId>(solid_.facets.size()))
+      for (const Loop& loop : solid_.facets[f.index()].loops)
         for (std::size_t i = 0; i < loop.size(); ++i)
-          if (loop[i] == a && loop[(i + 1) % loop.size()] == b) return FacetId{f};
+          if (loop[i] == a && loop[(i + 1) % loop.size()] == b) return f;
     return std::nullopt;
   }
 
@@ -298,16 +299,16 @@ class AcrossRaiser {
     if (block_.lid) limits.push_back({block_.lid->normal, block_.lid->offset_m + grown_m});
     const std::size_t count = limits.size();
     const bool is_above_all = is_in_valley();
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      if (under_.contains({f})) continue;
-      const Vec3 normal = solid_.planes[solid_.facets[at(f)].plane.index()].normal;
+    for (const FacetId f : ids_below<FacetId>(solid_.facets.size())) {
+      if (under_.contains(f)) continue;
+      const Vec3 normal = solid_.planes[solid_.facets[f.index()].plane.index()].normal;
       limits.resize(count);
       for (const FacetId roof : under_) {
         const Plane& plane = solid_.planes[facet(roof).plane.index()];
         if (!is_above_all) limits.resize(count);
         limits.push_back({-plane.normal, -plane.offset_m});
         if (is_above_all && limits.size() < count + under_.size()) continue;
-        if (detail::area_within(solid_.vertices, solid_.facets[at(f)], normal, limits) >
+        if (detail::area_within(solid_.vertices, solid_.facets[f.index()], normal, limits) >
             detail::kTouch_m2)
           return true;
       }

@@ -1,6 +1,7 @@
 #include "oriel/pipeline/faulty_imprints.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "oriel/pipeline/output_check.h"
 
 #include <algorithm>
@@ -34,13 +35,13 @@ bool FaultyImprints::add(const Document& document, const Building& building,
   for (const Facet& facet : solid.facets)
     polygons.insert(facet.polygons.begin(), facet.polygons.end());
   const std::size_t known = ids_.size();
-  for (int i = 0; i < std::ssize(segmentation.features); ++i) {
-    const Feature& feature = segmentation.features[at(i)];
+  for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size())) {
+    const Feature& feature = segmentation.features[i.index()];
     if (feature.sense != Sense::imprint) continue;
     const bool is_there = std::ranges::any_of(
         feature.source_polygons, [&](int polygon) { return polygons.contains(polygon); });
     const Plane& plane = segmentation.planes[feature.planes.front().index()];
-    if (is_there && (are_all || faulty.contains(key_of(plane)))) ids_.push_back(FeatureId{i});
+    if (is_there && (are_all || faulty.contains(key_of(plane)))) ids_.push_back(i);
   }
   std::ranges::sort(ids_);
   ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());

@@ -1,6 +1,7 @@
 #include "kernel/segment/remove.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/base/issue.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/segment/boundary/parting.h"
@@ -50,9 +51,8 @@ class FeatureRemover {
     int lumps = 0;
     for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
     for (int lump = 0; lump < lumps; ++lump) bodies_.push_back(boundary_of(solid, lump, world_));
-    for (int f = 0; f < std::ssize(solid.facets); ++f)
-      for (const int polygon : solid.facets[at(f)].polygons)
-        facets_.emplace_back(polygon, FacetId{f});
+    for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
+      for (const int polygon : solid.facets[f.index()].polygons) facets_.emplace_back(polygon, f);
     std::ranges::sort(facets_);
   }
 
@@ -60,7 +60,7 @@ class FeatureRemover {
     wanted_.assign(segmentation_.features.size(), 0);
     for (const FeatureId id : asked) wanted_[id.index()] = 1;
     hosted_.resize(segmentation_.features.size());
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i) enter(FeatureId{i});
+    for (const FeatureId i : ids_below<FeatureId>(segmentation_.features.size())) enter(i);
     const std::vector<Boundary> untouched = bodies_;
     const std::vector<char> all_wanted = wanted_;
     while (!try_all()) {
@@ -71,8 +71,8 @@ class FeatureRemover {
       wanted_ = all_wanted;
       out_.refused.clear();
     }
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (go_[at(i)]) out_.removed.push_back(FeatureId{i});
+    for (const FeatureId i : ids_below<FeatureId>(segmentation_.features.size()))
+      if (go_[i.index()]) out_.removed.push_back(i);
     out_.solid = remaining_solid();
     return std::move(out_);
   }
@@ -117,9 +117,8 @@ class FeatureRemover {
     go_ = spread(wanted_, segmentation_);
     rings_.clear();
     for (const Boundary& body : bodies_) rings_.emplace_back(body);
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
-      const FeatureId id{i};
-      if (!go_[at(i)] || goes_with_parent(id)) continue;
+    for (const FeatureId id : ids_below<FeatureId>(segmentation_.features.size())) {
+      if (!go_[id.index()] || goes_with_parent(id)) continue;
       const auto reason = remove(id);
       if (is_spoilt_ || (reason && !refuse(id, *reason))) return false;
     }

@@ -1,6 +1,7 @@
 #include "kernel/segment/rings/feature_index.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,9 +33,9 @@ FeatureIndex::FeatureIndex(const Segmentation& segmentation, const Tolerances& t
       tolerances_(tolerances),
       work_(work),
       planes_(segmentation.planes.size()) {
-  for (int i = 0; i < std::ssize(segmentation.features); ++i)
-    for (const PlaneId plane : segmentation.features[at(i)].planes)
-      planes_[plane.index()].features.push_back(FeatureId{i});
+  for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size()))
+    for (const PlaneId plane : segmentation.features[i.index()].planes)
+      planes_[plane.index()].features.push_back(i);
 }
 
 const std::vector<FeatureIndex::PlacedCap>& FeatureIndex::on(PlaneId plane) {
@@ -108,13 +109,13 @@ bool FeatureIndex::is_cut_off_there(const Feature& feature, const Plane& plane,
 }
 
 bool are_all_rings_filled(const Solid& solid, FeatureIndex& caps, const Tolerances& tolerances) {
-  for (int f = 0; f < std::ssize(solid.facets); ++f) {
-    const Facet& facet = solid.facets[at(f)];
+  for (const FacetId f : ids_below<FacetId>(solid.facets.size())) {
+    const Facet& facet = solid.facets[f.index()];
     if (facet.loops.size() == 1) continue;
     const ReachAxes axes = axes_in(solid.planes[facet.plane.index()].normal);
     for (std::size_t l = 1; l < facet.loops.size(); ++l)
       if (!caps.fills(facet.plane, reach_of_ring(solid, facet, facet.loops[l], axes)) &&
-          !is_slit(ring_of(solid, FacetId{f}, facet.loops[l]), tolerances))
+          !is_slit(ring_of(solid, f, facet.loops[l]), tolerances))
         return false;
   }
   return true;

@@ -1,6 +1,7 @@
 #include "kernel/segment/rings/ring_features.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/flush/polygon_grid.h"
 #include "kernel/segment/rings/feature_index.h"
@@ -207,12 +208,12 @@ class RingWriter {
   // --- what is there already
 
   void find_homes() {
-    for (int c = 0; c < std::ssize(out_.cells); ++c) {
-      const auto& facets = out_.cells[at(c)].facets;
+    for (const CellId c : ids_below<CellId>(out_.cells.size())) {
+      const auto& facets = out_.cells[c.index()].facets;
       for (int f = 0; f < std::ssize(facets); ++f)
         for (const int polygon : facets[at(f)].polygons) {
           if (at(polygon) >= home_.size()) home_.resize(at(polygon) + 1);
-          home_[at(polygon)] = {CellId{c}, f};
+          home_[at(polygon)] = {c, f};
         }
     }
   }
