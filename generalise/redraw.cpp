@@ -1,6 +1,5 @@
 #include "generalise/generalise.h"
 #include "generalise/removal/facets.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"

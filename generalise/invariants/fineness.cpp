@@ -1,6 +1,5 @@
 #include "generalise/invariants/fineness.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/boxes.h"

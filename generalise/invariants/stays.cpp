@@ -1,7 +1,6 @@
 #include "generalise/invariants/stays.h"
 
 #include "generalise/invariants/fineness.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/boxes.h"
 

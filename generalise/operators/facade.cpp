@@ -2,7 +2,6 @@
 
 #include "generalise/operators/separate.h"
 #include "kernel/attach/clearance.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include "generalise/operators/facade.h"
 #include "kernel/attach/move_facet.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 

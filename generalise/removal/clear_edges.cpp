@@ -1,7 +1,6 @@
 #include "generalise/removal/clear_edges.h"
 
 #include "kernel/attach/drop_facet.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
 

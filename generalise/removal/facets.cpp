@@ -1,6 +1,5 @@
 #include "generalise/removal/facets.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/disjoint_sets.h"

@@ -1,6 +1,5 @@
 #include "generalise/invariants/stays.h"
 #include "generalise/removal/removal.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
 

@@ -1,7 +1,6 @@
 #include "generalise/invariants/stays.h"
 #include "generalise/removal/removal.h"
 #include "generalise/removal/take_out.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"

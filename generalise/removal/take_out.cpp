@@ -1,7 +1,6 @@
 #include "generalise/removal/take_out.h"
 
 #include "generalise/removal/facets.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/segment/complex/body_without.h"

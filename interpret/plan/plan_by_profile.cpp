@@ -1,7 +1,6 @@
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/plan/profile.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "model/tolerances.h"
 

@@ -1,6 +1,5 @@
 #include "kernel/attach/clearance.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"

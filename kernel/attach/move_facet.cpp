@@ -1,7 +1,6 @@
 #include "kernel/attach/move_facet.h"
 
 #include "kernel/attach/clearance.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 

@@ -2,7 +2,6 @@
 
 #include "kernel/attach/clearance.h"
 #include "kernel/attach/new_facet.h"
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"

@@ -2,6 +2,7 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/ids.h"
+#include "kernel/base/index.h"
 
 #include <cstddef>
 #include <initializer_list>

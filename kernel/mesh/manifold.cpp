@@ -1,6 +1,5 @@
 #include "kernel/mesh/manifold.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/disjoint_sets.h"
 

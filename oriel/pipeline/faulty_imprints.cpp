@@ -1,6 +1,5 @@
 #include "oriel/pipeline/faulty_imprints.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "oriel/pipeline/output_check.h"
 

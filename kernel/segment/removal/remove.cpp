@@ -1,6 +1,5 @@
 #include "kernel/segment/remove.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/base/issue.h"
 #include "kernel/geometry/outlines.h"

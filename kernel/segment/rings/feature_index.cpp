@@ -1,6 +1,5 @@
 #include "kernel/segment/rings/feature_index.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "kernel/segment/rings/ring_features.h"
 
-#include "kernel/base/index.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/flush/polygon_grid.h"
