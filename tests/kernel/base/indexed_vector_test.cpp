@@ -32,6 +32,17 @@ TEST_SUITE("kernel/base") {
     CHECK_FALSE(numbers.contains(PointId{}));
   }
 
+  TEST_CASE("ids between two leave out the second, and elements that go let others move up") {
+    IndexedVector<PointId, int> numbers{7, 8, 9, 10};
+    int sum = 0;
+    for (const PointId id : ids_between(PointId{1}, PointId{3})) sum = 10 * sum + numbers[id];
+    CHECK(sum == 89);
+    for (const PointId id : ids_between(PointId{2}, PointId{2})) sum = id.value;
+    CHECK(sum == 89);
+    numbers.erase_if([](int number) { return number % 2 == 0; });
+    CHECK(numbers.items() == std::vector<int>{7, 9});
+  }
+
   TEST_CASE("a list is addressed by ids of its own kind only") {
     CHECK(std::is_invocable_v<decltype([](Names& n, auto i) -> decltype(n[i]) { return n[i]; }),
                               Names&, PointId>);
