@@ -82,7 +82,7 @@ class IndexedVector {
   void resize(std::size_t size, const T& value) { items_.resize(size, value); }
   void assign(std::size_t size, const T& value) { items_.assign(size, value); }
   void clear() { items_.clear(); }
-  /// Takes out what the condition holds of: those behind move up.
+  /// Takes out the elements that meet the condition; those behind move up.
   void erase_if(auto condition) { std::erase_if(items_, condition); }
   [[nodiscard]] reference back() {
     ORIEL_ASSERT(!empty());

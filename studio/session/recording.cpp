@@ -22,7 +22,7 @@ namespace oriel::studio {
 
 namespace {
 
-/// Of a relation that leads to more features the page says nothing: it would draw no line of it.
+/// The most features to which a relation is shown: the page would draw no lines to more.
 constexpr std::size_t kMostRelated = 24;
 
 std::string base64(const std::string& bytes) {
@@ -78,7 +78,7 @@ class ValuePool {
 
 }  // namespace
 
-/// What a feature is called, and the reply to `explain`.
+/// A feature: its entry in the list, and the reply to `explain`.
 struct RecordedFeature {
   StudioJson feature, explanation;
   std::string label;
