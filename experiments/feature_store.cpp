@@ -161,7 +161,7 @@ std::optional<KeptJson> kept_buildings(const std::string& stem) {
   const bool is_there =
       fs::exists(stem + kBuildingsEnd, problem) && fs::exists(stem + kRecordsEnd, problem);
   if (!is_there) return std::nullopt;
-  auto list = KeptJson::parse(detail::Input(stem + kBuildingsEnd).read_all(), nullptr, false);
+  auto list = KeptJson::parse(Input(stem + kBuildingsEnd).read_all(), nullptr, false);
   const bool is_whole =
       list.is_array() && std::ranges::all_of(list, [](const KeptJson& entry) {
         return entry.is_object() && entry.contains("id") && entry["id"].is_string();
@@ -226,7 +226,7 @@ std::string FeatureRecipe::text() const {
 }
 
 std::string hash_of_file(const std::string& path) {
-  detail::Input input(path);
+  Input input(path);
   input.hash();
   while (!input.read_some().empty()) {
   }

@@ -116,7 +116,7 @@ std::string MeasuredStore::path_of(const std::string& key) const {
 std::optional<MeasuredPart> MeasuredStore::find(const std::string& key) const {
   std::error_code problem;
   if (folder_.empty() || !std::filesystem::exists(path_of(key), problem)) return std::nullopt;
-  const auto json = MeasuredJson::parse(detail::Input(path_of(key)).read_all(), nullptr, false);
+  const auto json = MeasuredJson::parse(Input(path_of(key)).read_all(), nullptr, false);
   try {
     return part_from(json);
   } catch (const MeasuredJson::exception&) {

@@ -32,7 +32,7 @@ bool is_within(const Segmentation& segmentation, FeatureId id, FeatureId outer) 
 bool carries_its_parent(const Segmentation& segmentation, FeatureId id) {
   const Feature& feature = segmentation.features[id.index()];
   const auto is_below = [&](PlaneId plane) {
-    return detail::looks_down(segmentation.planes[plane.index()].normal);
+    return looks_down(segmentation.planes[plane.index()].normal);
   };
   if (feature.sense != Sense::protrusion || !feature.parent.is_valid() || feature.planes.empty() ||
       !is_below(feature.planes[0]))

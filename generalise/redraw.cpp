@@ -32,8 +32,8 @@ Vec3 area_vector(const Building& building, const Polygon& polygon) {
 
 /// What a facet is that no input polygon lies in.
 std::string type_by_slope(Vec3 normal) {
-  if (detail::looks_up(normal)) return "RoofSurface";
-  return detail::looks_down(normal) ? "OuterCeilingSurface" : "WallSurface";
+  if (looks_up(normal)) return "RoofSurface";
+  return looks_down(normal) ? "OuterCeilingSurface" : "WallSurface";
 }
 
 /// What is drawn looks the way of a polygon within 45 degrees.
@@ -90,14 +90,14 @@ class Redrawer {
 
   [[nodiscard]] std::string type_of_bare(const Facet& facet) const {
     const Plane& plane = generalised_.solid.planes[facet.plane.index()];
-    const auto outlines = detail::outlines_of(generalised_.solid.vertices, facet.loops);
-    const auto inside = detail::interior_point(outlines, plane.normal);
+    const auto outlines = outlines_of(generalised_.solid.vertices, facet.loops);
+    const auto inside = interior_point(outlines, plane.normal);
     const bool is_closing =
         facet.polygons.empty() && inside &&
         std::ranges::any_of(generalised_.closing, [&](const ClosingFace& face) {
           return dot(face.plane.normal, plane.normal) > kSamePlane &&
                  std::abs(dot(face.plane.normal, *inside) - face.plane.offset_m) <= reach_m_ &&
-                 detail::contains(face.outlines, face.plane.normal, *inside);
+                 contains(face.outlines, face.plane.normal, *inside);
         });
     return is_closing ? "ClosureSurface" : type_by_slope(plane.normal);
   }
@@ -175,8 +175,7 @@ class Redrawer {
     return !gone.planes.empty() &&
            std::abs(dot(plane.normal, gone.cap_point) - plane.offset_m) <= reach_m_ &&
            dot(plane.normal, segmentation.planes[gone.planes[0].index()].normal) > 0.99 &&
-           detail::contains(detail::outlines_of(solid.vertices, facet.loops), plane.normal,
-                            gone.cap_point);
+           contains(outlines_of(solid.vertices, facet.loops), plane.normal, gone.cap_point);
   }
 
   void keep_installations(const std::map<int, std::set<std::string>>& heirs) {
@@ -218,7 +217,7 @@ std::vector<ClosingFace> closing_faces(const Solid& solid) {
   for (const Facet& facet : solid.facets)
     if (facet.polygons.empty())
       faces.push_back(
-          {solid.planes[facet.plane.index()], detail::outlines_of(solid.vertices, facet.loops)});
+          {solid.planes[facet.plane.index()], outlines_of(solid.vertices, facet.loops)});
   return faces;
 }
 

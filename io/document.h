@@ -11,9 +11,7 @@
 
 namespace oriel {
 
-namespace detail {
 struct CityJsonSource;
-}
 
 inline constexpr std::size_t kNoFamily = static_cast<std::size_t>(-1);
 
@@ -31,7 +29,7 @@ struct Document {
   /// The CityJSON text and where the buildings stand in it. Of CityGML, the lines of the
   /// CityJSONSeq that it becomes; null for a Building that could not be read. Null for
   /// meshes.
-  std::shared_ptr<const detail::CityJsonSource> source;
+  std::shared_ptr<const CityJsonSource> source;
   /// Of a line of a CityJSONSeq: its "id", and the type of the CityObject with that id.
   std::string feature_id{};
   std::string feature_type = "Building";

@@ -16,21 +16,21 @@ namespace {
 
 Format format_to_read(const std::string& path, const ReadOptions& options) {
   const auto format = options.format ? options.format : format_of(path);
-  const detail::TextName name{path == "-" ? "stdin" : path, 0};
+  const TextName name{path == "-" ? "stdin" : path, 0};
   if (!format)
-    throw InputError(detail::error_in(
+    throw InputError(error_in(
         name, {Code::E106,
                "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj, "
                ".off, .ply or .stl, or --from cityjson, cityjsonseq, citygml, obj, off, ply or "
                "stl"}));
   if (*format == Format::gpkg)
-    throw InputError(detail::error_in(
+    throw InputError(error_in(
         name, {Code::E106, "a GeoPackage is written only; read the file that it was made of"}));
   if (*format == Format::glb)
     throw InputError(
-        detail::error_in(name, {Code::E106, "GLB is written only: its triangles are for viewers"}));
+        error_in(name, {Code::E106, "GLB is written only: its triangles are for viewers"}));
   if (!is_readable(*format))
-    throw InputError(detail::error_in(
+    throw InputError(error_in(
         name, {Code::E106, fmt::format("{} names what is written; every version is read as citygml",
                                        to_string(*format))}));
   return *format;
@@ -57,8 +57,8 @@ struct Reader::State {
   std::optional<Checked<Document>> read_line();
 
   Format format;
-  detail::TextName name;
-  detail::Input input;
+  TextName name;
+  Input input;
   detail::CityJsonReader cityjson;
   detail::CityGmlReader citygml;
   std::optional<detail::SequenceHeader> header;
@@ -97,8 +97,7 @@ std::optional<Checked<Document>> Reader::next() {
 
 std::string Reader::State::read_text() {
   std::string text = input.read_all();
-  if (const std::size_t bom = text.size() - detail::without_bom(text).size(); bom > 0)
-    text.erase(0, bom);
+  if (const std::size_t bom = text.size() - without_bom(text).size(); bom > 0) text.erase(0, bom);
   return text;
 }
 
@@ -106,8 +105,7 @@ Checked<Document> Reader::State::read_file() {
   std::string text = read_text();
   if (text.empty())
     return {std::nullopt,
-            {detail::error_in(name,
-                              {Code::E102, "the file is empty; write it again, or name another"})}};
+            {error_in(name, {Code::E102, "the file is empty; write it again, or name another"})}};
   if (format == Format::obj) return detail::read_obj(text, name);
   if (format == Format::off) return detail::read_off(text, name);
   if (format == Format::ply) return detail::read_ply(text, name);
@@ -121,14 +119,13 @@ std::optional<Checked<Document>> Reader::State::read_line() {
     if (!input.read_line(line)) {
       is_done = true;
       if (header) return std::nullopt;
-      return Checked<Document>{
-          std::nullopt,
-          {detail::error_in({name.file, 0}, {Code::E102,
-                                             "the file is empty; expected a CityJSON "
-                                             "header line"})}};
+      return Checked<Document>{std::nullopt,
+                               {error_in({name.file, 0}, {Code::E102,
+                                                          "the file is empty; expected a CityJSON "
+                                                          "header line"})}};
     }
     ++name.line;
-    if (name.line == 1) line.erase(0, line.size() - detail::without_bom(line).size());
+    if (name.line == 1) line.erase(0, line.size() - without_bom(line).size());
     if (is_blank(line)) continue;
     auto record = cityjson.read(std::move(line), name, header);
     if (!record.value && record.issues.empty()) continue;  // the header once more

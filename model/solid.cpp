@@ -53,9 +53,9 @@ bool is_closed(const Solid& solid) {
         to.push_back(loop[i + 1 < loop.size() ? i + 1 : 0]);
       }
   const auto ends_of = [&](int i) {
-    return detail::EdgeEnds(from[static_cast<std::size_t>(i)], to[static_cast<std::size_t>(i)]);
+    return EdgeEnds(from[static_cast<std::size_t>(i)], to[static_cast<std::size_t>(i)]);
   };
-  const detail::Numbers edges = detail::sort_edges(from.size(), solid.vertices.size(), ends_of);
+  const Numbers edges = sort_edges(from.size(), solid.vertices.size(), ends_of);
   int balance = 0;  // of the edges with the same ends: those that run up less those that run down
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i > 0 && ends_of(edges[i]) != ends_of(edges[i - 1]) && balance != 0) return false;

@@ -113,7 +113,7 @@ Journal::~Journal() {
 }
 
 bool Journal::begin() {
-  descriptor_ = detail::open_locked(path_, O_WRONLY | O_CREAT);
+  descriptor_ = open_locked(path_, O_WRONLY | O_CREAT);
   if (descriptor_ < 0) fail_to_write(path_, errno);
   is_new_ = std::filesystem::is_empty(path_);
   return is_new_;
@@ -154,8 +154,7 @@ void Journal::append(const std::string& text) {
 /// locked until the new one is in its place.
 void Journal::compact(const std::string& state) {
   const std::string path = path_ + ".new";
-  const int old =
-      std::exchange(descriptor_, detail::open_locked(path, O_WRONLY | O_CREAT | O_TRUNC));
+  const int old = std::exchange(descriptor_, open_locked(path, O_WRONLY | O_CREAT | O_TRUNC));
   if (descriptor_ < 0) fail_to_write(path, errno);
   bytes_ = 0;
   if (!done_.empty()) append(line_of("done", to_json(done_)));

@@ -146,7 +146,7 @@ std::string run_sha256(const RunStatus& run, std::string_view command_sha256) {
 }
 
 RunStatus read_status(const std::string& path) {
-  const ordered_json json = detail::read_json_file(path);
+  const ordered_json json = read_json_file(path);
   RunStatus run;
   try {
     const ordered_json& records = json.at("records");

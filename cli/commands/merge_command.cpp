@@ -197,7 +197,7 @@ class Merger {
   ShardList list_;
   Report report_;
   CommonHeader headers_;
-  detail::IdSet ids_;
+  IdSet ids_;
   std::map<std::string, std::string> file_of_;
   std::uint64_t features_ = 0, expected_ = 0;
   bool is_first_ = true, has_errors_ = false;

@@ -34,7 +34,7 @@ std::string ShardList::json() const {
 
 ShardList ShardList::load(const std::string& path) {
   ShardList list;
-  const ordered_json json = detail::read_json_file(path);
+  const ordered_json json = read_json_file(path);
   try {
     for (const auto& shard : json.at("shards"))
       list.shards.push_back({shard.at("name"), count_of(shard.at("features")),

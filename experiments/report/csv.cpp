@@ -8,7 +8,7 @@ namespace oriel::report {
 
 namespace {
 
-std::string number_cell(double value) { return std::isnan(value) ? "" : detail::shortest(value); }
+std::string number_cell(double value) { return std::isnan(value) ? "" : shortest(value); }
 
 std::string number_cell(const std::optional<double>& value) {
   return value ? number_cell(*value) : "";

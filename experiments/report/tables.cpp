@@ -54,7 +54,7 @@ std::string differences_sentence(const RunGroup& group) {
 std::string value_of(const MeasuredRun& run) {
   const RunSetting& setting = run.setting();
   if (!setting.value) return setting.name;
-  const std::string number = detail::shortest(*setting.value);
+  const std::string number = shortest(*setting.value);
   return setting.unit.empty() ? number : fmt::format("{} {}", number, setting.unit);
 }
 

@@ -22,7 +22,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
 using detail::PlanArea;
 
 constexpr double kMillimetreOnMap = 1e-3;
@@ -40,7 +39,7 @@ constexpr double kNotUpright = 0.1;
 std::vector<Outline> outlines_to_draw(const PlanArea& area, double least_yard_m2) {
   std::vector<Outline> out{area.front()};
   for (std::size_t i = 1; i < area.size(); ++i)
-    if (std::abs(detail::signed_area(area[i], {0, 0, 1})) >= least_yard_m2) out.push_back(area[i]);
+    if (std::abs(signed_area(area[i], {0, 0, 1})) >= least_yard_m2) out.push_back(area[i]);
   return out;
 }
 
@@ -125,19 +124,18 @@ auto of_pair(const BuildingPairs& pairs, std::size_t building) {
 
 /// What a solid is made of.
 struct CityGroups::BlockForm {
-  std::optional<detail::UprightBlock> upright;
-  std::optional<detail::GabledBlock> gabled;
+  std::optional<UprightBlock> upright;
+  std::optional<GabledBlock> gabled;
   double grid_m = 0;
 
   /// The faces of it; those of a gabled one are all that its solid is made of.
   [[nodiscard]] Building faces(const std::string& id) const {
-    Building out = gabled ? detail::faces_of(*gabled, grid_m) : detail::faces_of({*upright});
+    Building out = gabled ? faces_of(*gabled, grid_m) : faces_of({*upright});
     out.id = id;
     return out;
   }
   [[nodiscard]] std::optional<Solid> solid(const std::string& id) const {
-    return gabled ? detail::solid_of(faces(id), Tolerances{})
-                  : detail::solid_of({*upright}, Tolerances{});
+    return gabled ? block_solid(faces(id), Tolerances{}) : block_solid({*upright}, Tolerances{});
   }
 };
 
@@ -257,7 +255,7 @@ bool CityGroups::covers_kept(DrawnGroup& group, const std::vector<Outline>& outl
 void CityGroups::make_gabled(DrawnGroup& group, const std::vector<Outline>& outlines) const {
   const AlikeGroup& found = group.found;
   if (!found.gable || outlines.size() != 1) return;
-  const auto outline = detail::under_ridge(outlines[0], found.gable->ridge);
+  const auto outline = under_ridge(outlines[0], found.gable->ridge);
   const double eaves_m = found.gable->eaves_m, ridge_m = found.gable->ridge_m;
   if (!outline || ridge_m - eaves_m < kLeastGable_m || eaves_m - found.ground_m < kLeastGable_m)
     return;
@@ -293,8 +291,8 @@ void CityGroups::make_solid(DrawnGroup& group, const Profile& profile, double le
     return;
   }
   const Tolerances tolerances;
-  detail::UprightBlock block{outlines_to_draw(found.areas[0], profile.least_piece_m2),
-                             found.ground_m, found.roof_m};
+  UprightBlock block{outlines_to_draw(found.areas[0], profile.least_piece_m2), found.ground_m,
+                     found.roof_m};
   const Outsiders outsiders(search_, found);
   const Vec3 origin_m = search_.buildings()[found.members.front()].origin_m;
   const auto may_cover = [&](const Box& box) {
@@ -306,7 +304,7 @@ void CityGroups::make_solid(DrawnGroup& group, const Profile& profile, double le
     return kept_ == nullptr || kept_->under_m2(std::span(&around, 1), origin_m) <= kGained_m2;
   };
   const auto is_fixed = [&](Vec3 p, Vec3 q) { return outsiders.stand_against(p, q); };
-  detail::simplify_outlines(block.outlines, {least_edge_m, tolerances.weld_m, may_cover, is_fixed});
+  simplify_outlines(block.outlines, {least_edge_m, tolerances.weld_m, may_cover, is_fixed});
   if (covers_kept(group, block.outlines)) return;
   make_gabled(group, block.outlines);
   if (group.is_gabled) return;

@@ -74,9 +74,8 @@ class CityGroups {
 
   void make_solid(DrawnGroup& group, const Profile& profile, double least_edge_m) const;
   [[nodiscard]] double on_kept_m2(std::size_t building) const;
-  void make_gabled(DrawnGroup& group, const std::vector<detail::Outline>& outlines) const;
-  [[nodiscard]] bool covers_kept(DrawnGroup& group,
-                                 const std::vector<detail::Outline>& outlines) const;
+  void make_gabled(DrawnGroup& group, const std::vector<Outline>& outlines) const;
+  [[nodiscard]] bool covers_kept(DrawnGroup& group, const std::vector<Outline>& outlines) const;
   void look_at_kept(DrawnGroup& group);
   void find_blocks(const Profile& profile, double scale, const ForEachShare& each);
   void find_rows(const Profile& profile);

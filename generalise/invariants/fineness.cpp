@@ -26,8 +26,6 @@ namespace {
 /// An edge lies on another one, a facet in front of another one, within the rounding of doubles.
 constexpr double kRounding_m = 1e-6;  // tolerance of doubles
 
-using detail::Outline;
-
 /// The boxes of the features that are not removed.
 class OwnerBoxes {
  public:
@@ -63,7 +61,7 @@ class OwnerBoxes {
 
   const Segmentation& segmentation_;
   std::vector<FeatureId> owners_;
-  detail::BoxTree tree_;
+  BoxTree tree_;
 };
 
 /// Adds those edges of a facet that are shorter than asked for; `is_wanted` of two vertices.
@@ -221,7 +219,7 @@ struct FacetSheet {
 
 FacetSheet sheet_of(const Solid& solid, const Facet& facet) {
   const Plane& plane = solid.planes[facet.plane.index()];
-  return {detail::outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m};
+  return {outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m};
 }
 
 Vec3 moved_onto(const FacetSheet& sheet, Vec3 p) {
@@ -231,12 +229,11 @@ Vec3 moved_onto(const FacetSheet& sheet, Vec3 p) {
 /// A point of `of` that lies over the other sheet, seen along their normal.
 std::optional<Vec3> point_over(const FacetSheet& of, const FacetSheet& other) {
   std::vector<Vec3> points;
-  if (const auto inside = detail::interior_point(of.outlines, of.normal)) points.push_back(*inside);
+  if (const auto inside = interior_point(of.outlines, of.normal)) points.push_back(*inside);
   for (const Outline& outline : of.outlines)
     points.insert(points.end(), outline.begin(), outline.end());
   for (const Vec3 p : points)
-    if (detail::contains_clearly(other.outlines, other.normal, moved_onto(other, p), kRounding_m))
-      return p;
+    if (contains_clearly(other.outlines, other.normal, moved_onto(other, p), kRounding_m)) return p;
   return std::nullopt;
 }
 
@@ -247,8 +244,7 @@ std::optional<Vec3> crossing(const FacetSheet& a, const FacetSheet& b) {
       const Vec3 p = moved_onto(b, mine[i]), q = moved_onto(b, mine[(i + 1) % mine.size()]);
       for (const Outline& yours : b.outlines)
         for (std::size_t k = 0; k < yours.size(); ++k)
-          if (detail::do_cross(p, q, yours[k], yours[(k + 1) % yours.size()], b.normal,
-                               kRounding_m))
+          if (do_cross(p, q, yours[k], yours[(k + 1) % yours.size()], b.normal, kRounding_m))
             return yours[k];
     }
   return std::nullopt;

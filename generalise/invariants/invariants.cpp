@@ -42,8 +42,6 @@ bool loses(const std::vector<LevelLine>& before, const std::vector<LevelLine>& a
          length_near_m(after, *height_m, within_m) < length_near_m(before, *height_m, within_m) / 2;
 }
 
-using detail::Outline;
-
 double shared_m2(const Solid& solid, const PartyWall& wall) {
   double sum_m2 = 0;
   for (const Facet& facet : solid.facets) {
@@ -53,14 +51,13 @@ double shared_m2(const Solid& solid, const PartyWall& wall) {
     const bool is_near = std::ranges::all_of(wall.outlines[0],
                                              [&](Vec3 p) { return distance_m(p) <= kPartyWall_m; });
     if (!is_near) continue;
-    sum_m2 += detail::shared_area_m2(detail::outlines_of(solid.vertices, facet.loops),
-                                     wall.outlines, wall.normal);
+    sum_m2 += shared_area_m2(outlines_of(solid.vertices, facet.loops), wall.outlines, wall.normal);
   }
   return sum_m2;
 }
 
 PartyWall wall_of(const Building& building, const Polygon& polygon, Vec3 moved_m) {
-  PartyWall wall{detail::outlines_of(building, polygon), {}};
+  PartyWall wall{outlines_of(building, polygon), {}};
   for (Outline& outline : wall.outlines)
     for (Vec3& p : outline) p = p + moved_m;
   wall.normal = normalised(area_vector(wall.outlines[0]));
@@ -83,7 +80,7 @@ enum class RoofSide { none, falls, level, rises };
 
 /// How a roof facet goes on inwards from its edge from `p` to `q`; none: it is no roof.
 RoofSide side_of(const Plane& plane, Vec3 p, Vec3 q) {
-  if (!detail::looks_up(plane.normal)) return RoofSide::none;
+  if (!looks_up(plane.normal)) return RoofSide::none;
   const double rise = cross(plane.normal, normalised(q - p)).z;
   return rise > kLevel ? RoofSide::rises : rise < -kLevel ? RoofSide::falls : RoofSide::level;
 }

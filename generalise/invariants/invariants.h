@@ -47,8 +47,8 @@ double length_near_m(const std::vector<LevelLine>& lines, double height_m, doubl
 
 /// A wall of another building, in the frame of the building that it may stand against.
 struct PartyWall {
-  std::vector<detail::Outline> outlines;  ///< the outer one first
-  Vec3 normal;                            ///< out of the other building
+  std::vector<Outline> outlines;  ///< the outer one first
+  Vec3 normal;                    ///< out of the other building
 };
 
 /// The upright polygons of those of `buildings` with another id that a facet of `solid`, which is

@@ -15,8 +15,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
-
 /// Openings are on one facade if their walls look the same way to 2 degrees and lie no further
 /// apart than this: frames stand before the wall, panes behind it.
 constexpr double kSameWay_cos = 0.9994, kSamePlane_m = 0.3;
@@ -74,12 +72,12 @@ WrittenOpening opening_of(const std::string& type, Vec3 normal, const std::vecto
                           const std::vector<WrittenPolygon>& polygons) {
   WrittenOpening opening;
   opening.type = type;
-  opening.is_in_wall = detail::looks_aside(normal);
+  opening.is_in_wall = looks_aside(normal);
   if (opening.is_in_wall) normal = normalised({normal.x, normal.y, 0});
   opening.normal = normal;
   // Of a wall, `along` runs to the right for who looks at it from outside.
   Vec3 along = opening.is_in_wall ? Vec3{-normal.y, normal.x, 0} : cross({0, 1, 0}, normal);
-  if (length(along) < detail::kSteepestRoof) along = {1, 0, 0};
+  if (length(along) < kSteepestRoof) along = {1, 0, 0};
   along = normalised(along);
   const Vec3 up = cross(normal, along);
   Box box;  // along, up, out

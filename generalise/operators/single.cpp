@@ -237,7 +237,7 @@ Placed symbolise(const Redrawing& task) {
   if (task.feature().sense != Sense::protrusion)
     return {std::nullopt, "only what sticks out can be symbolised"};
   const std::string with = task.word("with", "chimney_block");
-  const bool is_roof = detail::looks_up(host->n);
+  const bool is_roof = looks_up(host->n);
   if (with == "balcony_box")
     return is_roof ? Placed{std::nullopt, "a balcony box needs a wall"} : balcony(task, *host);
   if (!is_roof) return {std::nullopt, "a " + with + " needs a roof"};

@@ -62,11 +62,11 @@ class EdgeClearer {
     FacetId facet;
   };
   static FacetEdge facet_edge(Vec3 p, Vec3 q, FacetId facet) {
-    return detail::is_lesser(q, p) ? FacetEdge{q, p, facet} : FacetEdge{p, q, facet};
+    return is_lesser(q, p) ? FacetEdge{q, p, facet} : FacetEdge{p, q, facet};
   }
   static bool is_before(const FacetEdge& one, const FacetEdge& other) {
-    if (one.less != other.less) return detail::is_lesser(one.less, other.less);
-    return detail::is_lesser(one.more, other.more);
+    if (one.less != other.less) return is_lesser(one.less, other.less);
+    return is_lesser(one.more, other.more);
   }
 
   /// Lists the edges of the solid that are no longer than those that are too short.

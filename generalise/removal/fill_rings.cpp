@@ -14,8 +14,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
-
 Outline outline_of_loop(const std::vector<Vertex>& vertices, const Loop& loop) {
   Outline outline;
   for (const int v : loop) outline.push_back(vertices[at(v)].point);
@@ -61,8 +59,8 @@ class RingFiller {
   [[nodiscard]] bool is_within(const Loop& loop, const std::vector<Outline>& ring,
                                Vec3 normal) const {
     const std::vector<Outline> shape{outline_of_loop(solid_.vertices, loop)};
-    const auto point = detail::interior_point(shape, normal);
-    return point && detail::contains(ring, normal, *point);
+    const auto point = interior_point(shape, normal);
+    return point && contains(ring, normal, *point);
   }
 
   /// Marks all that hangs on the loop; false if its own facet does so another way.

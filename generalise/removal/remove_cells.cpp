@@ -64,11 +64,10 @@ class PolygonsAround {
 
   /// The input polygons of the facets of the solid that a figure in a plane lies in, whichever way
   /// they look; none if it is new. The plane is exact: those of a segmentation are its solid's.
-  [[nodiscard]] std::set<int> of(const std::vector<detail::Outline>& shape,
-                                 const Plane& plane) const {
+  [[nodiscard]] std::set<int> of(const std::vector<Outline>& shape, const Plane& plane) const {
     const auto near = facets_along_.find(direction_of(plane));
     if (near == facets_along_.end()) return {};
-    const auto point = detail::interior_point(shape, plane.normal);
+    const auto point = interior_point(shape, plane.normal);
     if (!point) return {};
     std::set<int> polygons;
     for (const FacetId f : near->second) {
@@ -79,7 +78,7 @@ class PolygonsAround {
       const bool is_in_plane =
           is_same || std::abs(dot(its.normal, *point) - its.offset_m) <= weld_m_;
       if (!is_in_plane) continue;
-      if (detail::contains(detail::outlines_of(solid_.vertices, facet.loops), its.normal, *point))
+      if (contains(outlines_of(solid_.vertices, facet.loops), its.normal, *point))
         polygons.insert(facet.polygons.begin(), facet.polygons.end());
     }
     return polygons;
@@ -277,7 +276,7 @@ class CellRemover {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const std::set<int> lost = polygons_of(gone);
     for (Facet& facet : made->facets) {
-      const auto polygons = polygons_around_.of(detail::outlines_of(made->vertices, facet.loops),
+      const auto polygons = polygons_around_.of(outlines_of(made->vertices, facet.loops),
                                                 made->planes[facet.plane.index()]);
       std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
     }
@@ -385,7 +384,7 @@ class CellRemover {
       std::set<int> polygons;
       for (const int i : facet.polygons) {
         const Face& face = draft.faces[at(i)];
-        std::vector<detail::Outline> shape;
+        std::vector<Outline> shape;
         for (const Loop& loop : face.loops) {
           shape.emplace_back();
           for (const int v : loop) shape.back().push_back(draft.shell.vertices[at(v)]);

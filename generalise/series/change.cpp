@@ -141,7 +141,7 @@ Change difference(const LevelState& before, const LevelState& after) {
 
 std::vector<Change> parts_of(const Change& change) {
   const std::vector<ChangePiece> pieces = pieces_of(change);
-  detail::DisjointSets sets(pieces.size());
+  DisjointSets sets(pieces.size());
   std::map<std::pair<MicrometrePoint, MicrometrePoint>, int> piece_at;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto join = [&](const std::pair<MicrometrePoint, MicrometrePoint>& edge) {

@@ -32,7 +32,7 @@ std::vector<Cluster> members_of_classes(const Links& links, auto is_member) {
 /// Members that pairs of members connect.
 std::vector<Cluster> connected_members(const EvaluationContext& context, const Links& links,
                                        auto is_member) {
-  oriel::detail::DisjointSets sets(context.rows);
+  oriel::DisjointSets sets(context.rows);
   for (const int row : context.row_numbers) {
     if (!is_member(row)) continue;
     const auto [begin, end] = links.range_of(row);

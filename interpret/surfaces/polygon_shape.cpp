@@ -19,7 +19,7 @@ Vec3 area_vector(const Building& building, const Polygon& polygon) {
 }
 
 double inclination_deg(Vec3 direction) {
-  return direction == Vec3{} ? 90 : detail::inclination_deg(direction);
+  return direction == Vec3{} ? 90 : oriel::inclination_deg(direction);
 }
 
 Box box_of(const Building& building, const Polygon& polygon) {

@@ -14,11 +14,9 @@ namespace oriel {
 
 namespace {
 
-using detail::RawNode;
-
 std::string text_of(const RawNode& node, std::string_view key) {
   const std::string_view value = node.value_of(key);
-  return value.starts_with('"') ? detail::decoded(value) : "";
+  return value.starts_with('"') ? decoded(value) : "";
 }
 
 double number_of(const RawNode& node, std::string_view key) {
@@ -71,7 +69,7 @@ void read_surfaces(const Shape& shape, CarriedLabels& labels) {
   const std::size_t first = labels.surfaces.size();
   labels.surfaces.resize(first + shape.text.polygons.size());
   if (!RawNode::is_object(shape.semantics)) return;
-  const auto surfaces = detail::elements_of(RawNode(shape.semantics).value_of("surfaces"));
+  const auto surfaces = elements_of(RawNode(shape.semantics).value_of("surfaces"));
   const std::vector<int> numbers = detail::surface_numbers(shape.semantics, shape.text.shape);
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     if (!RawNode::is_object(surfaces[s])) continue;
@@ -120,7 +118,7 @@ void CarriedLabelReader::State::read_installation(
   if (!RawNode::is_object(attributes)) return;
   auto feature = feature_of(RawNode(attributes));
   if (!feature) return;
-  for (const std::string_view geometry : detail::elements_of(installation.value_of("geometry"))) {
+  for (const std::string_view geometry : elements_of(installation.value_of("geometry"))) {
     if (!RawNode::is_object(geometry)) continue;
     for (const std::string_view polygon : shape_of(RawNode(geometry)).text.polygons)
       if (const auto found = polygon_of.find(polygon); found != polygon_of.end())
@@ -132,16 +130,16 @@ void CarriedLabelReader::State::read_installation(
 
 std::optional<CarriedLabels> CarriedLabelReader::labels_of(std::size_t building) const {
   if (!state_->objects) return std::nullopt;
-  const detail::GeometryPlace place = state_->document.source->places.at(building);
+  const GeometryPlace place = state_->document.source->places.at(building);
   const RawNode object(state_->objects->value(place.object));
   const std::string_view attributes = object.value_of("attributes");
   if (!RawNode::is_object(attributes) || !RawNode(attributes).find("oriel_pack"))
     return std::nullopt;
   CarriedLabels labels;
   std::unordered_map<std::string_view, int> polygon_of;
-  const auto read_geometry = [&](detail::GeometryPlace of) {
+  const auto read_geometry = [&](GeometryPlace of) {
     const auto geometries =
-        detail::elements_of(RawNode(state_->objects->value(of.object)).value_of("geometry"));
+        elements_of(RawNode(state_->objects->value(of.object)).value_of("geometry"));
     const Shape shape = shape_of(RawNode(geometries.at(of.geometry)));
     auto number = static_cast<int>(labels.surfaces.size());
     for (const std::string_view polygon : shape.text.polygons)
@@ -150,10 +148,10 @@ std::optional<CarriedLabels> CarriedLabelReader::labels_of(std::size_t building)
   };
   read_geometry(place);
   if (const auto& joined = state_->document.source->joined; building < joined.size())
-    for (const detail::GeometryPlace of : joined[building]) read_geometry(of);
-  for (const std::string_view child : detail::elements_of(object.value_of("children"))) {
+    for (const GeometryPlace of : joined[building]) read_geometry(of);
+  for (const std::string_view child : elements_of(object.value_of("children"))) {
     if (!child.starts_with('"')) continue;
-    const auto found = state_->number_of.find(detail::decoded(child));
+    const auto found = state_->number_of.find(decoded(child));
     if (found != state_->number_of.end())
       state_->read_installation(state_->objects->value(found->second), polygon_of, labels);
   }

@@ -16,8 +16,6 @@ namespace oriel {
 
 namespace {
 
-using detail::RawNode;
-
 constexpr double kCoarsest_m = 0.001;
 /// A coordinate in whole numbers that no building has, and that 64 bits hold.
 constexpr double kFarthest = 9e18;
@@ -26,7 +24,7 @@ template <class Number>
 std::array<Number, 3> three_numbers(std::string_view array) {
   std::array<Number, 3> numbers{};
   std::size_t count = 0;
-  detail::for_each_element(array, [&](std::string_view number) {
+  for_each_element(array, [&](std::string_view number) {
     if (count == 3) return;
     // Reader also takes whole numbers that are written as 1.0 or 1e3.
     double value = 0;
@@ -72,13 +70,13 @@ std::int64_t moved(std::size_t number, std::size_t count, std::size_t first) {
 /// The elements of the list `key` of an "appearance", which may be absent.
 std::vector<std::string_view> list_of(std::string_view appearance, std::string_view key) {
   if (!RawNode::is_object(appearance)) return {};
-  return detail::elements_of(RawNode(appearance).value_of(key));
+  return elements_of(RawNode(appearance).value_of(key));
 }
 
 /// The object of a text, without what stands around it.
 std::string_view root_in(std::string_view text) {
   const std::size_t start = text.find('{');
-  return text.substr(start, detail::end_of_value(text, start) - start);
+  return text.substr(start, end_of_value(text, start) - start);
 }
 
 }  // namespace
@@ -173,8 +171,8 @@ void CityJsonCollector::go_to_micrometres() {
   constexpr double kMicrometre_m = 1e-6;  // the unit of the grid, no tolerance
   const Vec3 from = metres_of(origin);
   std::string scale, translate;
-  detail::append_json_array(scale, std::array{kMicrometre_m, kMicrometre_m, kMicrometre_m});
-  detail::append_json_array(translate, std::array{from.x, from.y, from.z});
+  append_json_array(scale, std::array{kMicrometre_m, kMicrometre_m, kMicrometre_m});
+  append_json_array(translate, std::array{from.x, from.y, from.z});
   RawNode transform("{}");
   transform.set("scale", std::move(scale));
   transform.set("translate", std::move(translate));
@@ -197,12 +195,12 @@ std::optional<std::string> CityJsonCollector::add_objects(std::string_view line,
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < objects.size(); ++i) ids.push_back(objects.key(i));
   std::vector<Triple> vertices;
-  detail::for_each_element(feature.value_of("vertices"), [&](std::string_view vertex) {
+  for_each_element(feature.value_of("vertices"), [&](std::string_view vertex) {
     vertices.push_back(placed(three_numbers<std::int64_t>(vertex)));
   });
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects_.empty()) objects_ += ',';
-    detail::append_json(objects_, std::string_view(ids[i]));
+    append_json(objects_, std::string_view(ids[i]));
     objects_ += ':' + object_text(objects.value(i), vertices.size(), appearance);
   }
   ids_.insert(ids.begin(), ids.end());
@@ -238,7 +236,7 @@ std::string CityJsonCollector::text() const {
   for (int i = 0; i < digits; ++i) factor *= 10;
   for (double& number : scale) number = detail::scaled_down(number, -digits);
   std::string scale_text;
-  detail::append_json_array(scale_text, scale);
+  append_json_array(scale_text, scale);
   transform.set("scale", std::move(scale_text));
   file.set("transform", transform.text());
   const std::string appearance = appearance_text(file.value_of("appearance"));
@@ -247,7 +245,7 @@ std::string CityJsonCollector::text() const {
   std::string vertices = "[";
   for (const auto& [x, y, z] : vertices_) {
     if (vertices.size() > 1) vertices += ',';
-    detail::append_json_array(vertices, std::array{x / factor, y / factor, z / factor});
+    append_json_array(vertices, std::array{x / factor, y / factor, z / factor});
   }
   file.set("vertices", vertices + "]");
   return file.text() + "\n";

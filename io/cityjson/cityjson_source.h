@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// CityJSON's transform: input coordinate = translate + scale × integer, per axis.
 struct Transform {
@@ -48,4 +48,4 @@ struct CityJsonSource {
   std::multimap<std::string, Building> beside{};
 };
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -18,12 +18,6 @@ namespace oriel {
 
 namespace {
 
-using detail::append_json;
-using detail::append_json_key;
-using detail::decoded;
-using detail::elements_of;
-using detail::RawNode;
-
 /// `text` without the line breaks that stand between JSON values.
 std::string on_one_line(std::string text) {
   if (text.find_first_of("\r\n") == std::string::npos) return text;
@@ -72,7 +66,7 @@ constexpr std::array<std::string_view, 3> kLists{"materials", "textures", "verti
 struct CityJsonSplitter::State {
   explicit State(const Document& document)
       : source(document.source ? document.source
-                               : std::make_shared<const detail::CityJsonSource>(
+                               : std::make_shared<const CityJsonSource>(
                                      detail::fresh_cityjson(document.buildings))),
         root(root_text()),
         objects(root.value_of("CityObjects")),
@@ -90,13 +84,13 @@ struct CityJsonSplitter::State {
   [[nodiscard]] std::string_view root_text() const {
     const std::string_view text = source->text;
     const std::size_t start = text.find('{');
-    return text.substr(start, detail::end_of_value(text, start) - start);
+    return text.substr(start, end_of_value(text, start) - start);
   }
   void list_features();
   [[nodiscard]] std::string objects_text(std::size_t i, Extract& corners,
                                          std::array<Extract, 3>& used) const;
 
-  std::shared_ptr<const detail::CityJsonSource> source;
+  std::shared_ptr<const CityJsonSource> source;
   RawNode root;
   RawNode objects;
   std::vector<std::string_view> vertices;

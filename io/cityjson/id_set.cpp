@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -46,4 +46,4 @@ bool IdSet::insert(std::string_view id) {
   return true;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

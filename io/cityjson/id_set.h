@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// The ids that a stream had so far, in 16 bytes each, at a load of at most one half. Ids are known
 /// by a hash of 128 bits: among 10^9 of them two share one with a probability of 10^-21.
@@ -24,4 +24,4 @@ class IdSet {
   std::size_t count_ = 0;
 };
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -123,7 +123,7 @@ class GeometryFinder {
       for (const auto& [id, object] : *objects) objects_.push_back(as_object(object));
   }
 
-  [[nodiscard]] std::optional<dom::object> at(const detail::GeometryPlace& place) const {
+  [[nodiscard]] std::optional<dom::object> at(const GeometryPlace& place) const {
     if (place.object >= objects_.size() || !objects_[place.object]) return std::nullopt;
     return as_object(
         element_at(as_array(member(*objects_[place.object], "geometry")), place.geometry));
@@ -139,7 +139,7 @@ std::vector<FaceColours> material_colours(const Document& document) {
   std::vector<FaceColours> all(document.buildings.size());
   if (!document.source || document.source->text.find("\"materials\"") == std::string::npos)
     return all;
-  const detail::CityJsonSource& source = *document.source;
+  const CityJsonSource& source = *document.source;
   dom::parser parser;
   dom::object root;
   if (parser.parse(source.text).get(root) != simdjson::SUCCESS) return all;
@@ -147,10 +147,10 @@ std::vector<FaceColours> material_colours(const Document& document) {
   if (!materials.has_colours()) return all;
   const GeometryFinder geometries(root);
   for (std::size_t b = 0; b < std::min(all.size(), source.places.size()); ++b) {
-    std::vector<detail::GeometryPlace> places{source.places[b]};
+    std::vector<GeometryPlace> places{source.places[b]};
     if (b < source.joined.size())
       places.insert(places.end(), source.joined[b].begin(), source.joined[b].end());
-    for (const detail::GeometryPlace& place : places)
+    for (const GeometryPlace& place : places)
       if (const auto geometry = geometries.at(place)) materials.append(*geometry, all[b]);
   }
   return all;

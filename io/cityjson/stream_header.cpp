@@ -15,7 +15,6 @@ namespace oriel {
 
 namespace {
 
-using detail::RawNode;
 using nlohmann::json;
 
 json facts_of(const RawNode& root, const std::vector<std::string>& keys) {
@@ -38,7 +37,7 @@ std::string stream_header_facts(std::string_view header) {
 
 std::string feature_id(std::string_view line) {
   if (!RawNode::is_object(line)) return {};
-  return detail::decoded(RawNode(line).value_of("id"));
+  return decoded(RawNode(line).value_of("id"));
 }
 
 std::string file_facts(std::string_view header) {
@@ -56,7 +55,7 @@ namespace {
 std::array<double, 3> three_of(std::string_view array) {
   std::array<double, 3> numbers{};
   std::size_t count = 0;
-  for (const std::string_view text : detail::elements_of(array))
+  for (const std::string_view text : elements_of(array))
     if (count < numbers.size()) numbers[count++] = detail::as_double(text).value_or(0);
   return numbers;
 }
@@ -75,7 +74,7 @@ std::optional<Vec3> FeaturePlace::middle_of(std::string_view feature) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> least{kInfinity, kInfinity, kInfinity},
       most{-kInfinity, -kInfinity, -kInfinity};
-  detail::for_each_element(RawNode(feature).value_of("vertices"), [&](std::string_view vertex) {
+  for_each_element(RawNode(feature).value_of("vertices"), [&](std::string_view vertex) {
     const auto numbers = three_of(vertex);
     for (std::size_t axis = 0; axis < numbers.size(); ++axis) {
       least[axis] = std::min(least[axis], numbers[axis]);

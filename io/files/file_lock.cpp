@@ -8,12 +8,12 @@
 #include <thread>
 #include <unistd.h>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
 /// Workers of a process that was killed end a moment after it.
-constexpr int kMaxTries = 50;
+constexpr int kMaxLockTries = 50;
 constexpr std::chrono::milliseconds kBetween{10};
 
 bool has_name(int descriptor, const std::string& path) {
@@ -26,7 +26,7 @@ bool has_name(int descriptor, const std::string& path) {
 }  // namespace
 
 int open_locked(const std::string& path, int flags) {
-  for (int tries = 0; tries < kMaxTries; ++tries) {
+  for (int tries = 0; tries < kMaxLockTries; ++tries) {
     const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
     if (descriptor < 0) return -1;
     const bool is_taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -38,4 +38,4 @@ int open_locked(const std::string& path, int flags) {
   return -1;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Opens a file or folder with `flags` and locks it until the descriptor, and
 /// those made of it, are closed, or the process ends. Waits for a short while if another process
@@ -10,4 +10,4 @@ namespace oriel::detail {
 /// is locked. File systems without locks: it is only opened.
 int open_locked(const std::string& path, int flags);
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -95,4 +95,4 @@ bool Input::read_line(std::string& line) {
   return is_begun;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

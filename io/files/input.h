@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// The bytes of a file, or of stdin for "-", in order.
 class Input {
@@ -51,4 +51,4 @@ class Input {
   std::optional<Sha256> hash_;
 };
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -124,7 +124,7 @@ void OutputFile::open_temporary() {
 
 void OutputFile::open_partial() {
   temporary_ = PartialFiles::name_of(target_);
-  descriptor_ = detail::open_locked(temporary_, O_WRONLY | O_CREAT);
+  descriptor_ = open_locked(temporary_, O_WRONLY | O_CREAT);
   if (descriptor_ < 0) {
     temporary_.clear();
     fail(errno);
@@ -143,10 +143,10 @@ OutputFile::~OutputFile() {
 }
 
 void fail_to_write(const std::string& path, int reason) {
-  const detail::TextName name{path == "-" ? "stdout" : path, 0};
+  const TextName name{path == "-" ? "stdout" : path, 0};
   const std::string why = reason == EWOULDBLOCK ? "another process is writing it"
                                                 : std::generic_category().message(reason);
-  throw OutputError(detail::error_in(name, {Code::E601, "cannot be written: " + why}));
+  throw OutputError(error_in(name, {Code::E601, "cannot be written: " + why}));
 }
 
 void OutputFile::append(std::string_view bytes) {

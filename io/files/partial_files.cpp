@@ -43,7 +43,7 @@ Left left_in(const std::string& path, std::uint64_t bytes) {
   Left left;
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return left;
-  detail::Input file(path);
+  Input file(path);
   while (left.bytes < bytes) {
     const std::string_view got = file.read_some().substr(0, bytes - left.bytes);
     if (got.empty()) break;

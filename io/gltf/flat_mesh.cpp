@@ -34,8 +34,7 @@ class Flattener {
   void add(const MeshPolygon& polygon) {
     // Without a normal it has no area.
     if (polygon.normal == Vec3{}) return;
-    const auto triangles =
-        detail::triangulate_quickly(source_.points, polygon.rings, polygon.normal);
+    const auto triangles = triangulate_quickly(source_.points, polygon.rings, polygon.normal);
     if (triangles.empty()) return;
     const std::uint32_t feature = row_of(polygon);
     const FlatMesh::Point normal = single(polygon.normal);

@@ -272,8 +272,7 @@ class RowMaker {
 std::string gpkg_rows(std::string_view text, const Document& document,
                       std::span<const FeatureRecord> features) {
   if (text.empty()) return {};
-  const detail::Transform transform =
-      document.source ? document.source->transform : detail::Transform{};
+  const Transform transform = document.source ? document.source->transform : Transform{};
   const detail::CityRecord record = detail::city_record(text, transform);
   return detail::RowMaker(record, features).rows();
 }

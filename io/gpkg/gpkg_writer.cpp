@@ -79,8 +79,7 @@ Issue mixed_types(const std::string& output, GpkgTable table, const detail::Gpkg
 }  // namespace
 
 struct GpkgWriter::State {
-  explicit State(std::string path)
-      : output(std::move(path)), folder(detail::scratch_folder(output)) {
+  explicit State(std::string path) : output(std::move(path)), folder(scratch_folder(output)) {
     rows.emplace(folder, output).forget_name();
     for (const GpkgTable table : kTablesInOrder)
       columns[static_cast<std::size_t>(table)] = detail::table_columns(table);
@@ -91,7 +90,7 @@ struct GpkgWriter::State {
 
   std::string output;
   std::string folder;
-  std::optional<detail::NamelessFile> rows;
+  std::optional<NamelessFile> rows;
   std::array<GpkgColumns, detail::kGpkgTables> columns;
   std::string crs;
 };

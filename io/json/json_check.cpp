@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -182,4 +182,4 @@ std::string decoded(std::string_view raw) {
   return value.is_string() ? value.get<std::string>() : std::string(inside);
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// How deep a JSON text may be nested for sure; simdjson gives up at 1024.
 constexpr std::size_t kMaxDepth = 1000;
@@ -30,4 +30,4 @@ std::optional<nlohmann::json> parse_slowly(const TextName& name, std::string_vie
 /// finds.
 nlohmann::json read_json_file(const std::string& path);
 
-}  // namespace oriel::detail
+}  // namespace oriel

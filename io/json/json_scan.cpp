@@ -10,7 +10,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -190,4 +190,4 @@ void append_arrays_in(std::string_view text, std::vector<std::string_view>& arra
       take(at, kind == open);
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Where something stands in a text.
 struct TextRange {
@@ -26,4 +26,4 @@ std::size_t end_of_value(std::string_view text, std::size_t at,
 /// object, at whatever depth.
 void append_arrays_in(std::string_view text, std::vector<std::string_view>& arrays);
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::vector<std::string_view> elements_of(std::string_view text) {
   return elements;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

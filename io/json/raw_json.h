@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// The string whose raw form, quotes included, is `raw`, with its escapes resolved.
 std::string decoded(std::string_view raw);
@@ -88,4 +88,4 @@ void for_each_element(std::string_view text, const std::function<void(std::strin
 /// The elements of the array `text`, in order; none if it is no array.
 std::vector<std::string_view> elements_of(std::string_view text);
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <utf8.h>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}{}'", printable(text.substr(0, end)), is_cut ? "…" : "");
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Where a text comes from: a file, and for a line of a CityJSONSeq the line's number (else 0).
 struct TextName {
@@ -52,4 +52,4 @@ void for_each_line(std::string_view text, Act act) {
 /// `text` as it may stand in a message: printable(), in single quotes, cut after 40 bytes.
 std::string in_quotes(std::string_view text);
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -179,7 +179,7 @@ Checked<std::vector<LevelState>> read_level(std::string_view text, const std::st
   } catch (const std::exception& fault) {
     std::string sentence = "is not a level of a series: ";
     sentence += fault.what();
-    Issue issue = detail::error_in({file, 0}, {Code::E120, std::move(sentence)});
+    Issue issue = error_in({file, 0}, {Code::E120, std::move(sentence)});
     issue.place.building = building;
     out.issues.push_back(std::move(issue));
     return out;
@@ -189,9 +189,9 @@ Checked<std::vector<LevelState>> read_level(std::string_view text, const std::st
 }
 
 LevelState state_as_read(const Document& document, const Building& building) {
-  const detail::CityJsonSource fresh =
-      document.source ? detail::CityJsonSource{} : detail::fresh_cityjson(document.buildings);
-  const detail::CityJsonSource& source = document.source ? *document.source : fresh;
+  const CityJsonSource fresh =
+      document.source ? CityJsonSource{} : detail::fresh_cityjson(document.buildings);
+  const CityJsonSource& source = document.source ? *document.source : fresh;
   const auto [scale, translate] = source.transform;
   ordered_json header;
   header["transform"]["scale"] = {scale.x, scale.y, scale.z};

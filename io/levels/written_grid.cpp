@@ -19,7 +19,7 @@ constexpr double kGridPerMetre = 1e6;
 constexpr int kDecimals = 6;
 
 struct DocumentGrid {
-  detail::Transform transform;
+  Transform transform;
   bool is_fixed = false;  ///< by the header of a stream
 };
 
@@ -48,7 +48,7 @@ void note_decimals(const MicrometreRing& ring, int& decimals) {
 WrittenGrid::WrittenGrid(const Document& document) {
   const DocumentGrid grid = grid_of(document);
   if (!grid.is_fixed) digits_ = detail::finer_digits(grid.transform);
-  const detail::Transform transform = detail::finer(grid.transform, digits_);
+  const Transform transform = detail::finer(grid.transform, digits_);
   scale_ = transform.scale;
   translate_ = transform.translate;
 }
@@ -67,7 +67,7 @@ WrittenGrid::WrittenGrid(const Document& document, const std::vector<LevelState>
   while (!grid.is_fixed && digits_ < kDecimals &&
          std::max({s.x, s.y, s.z}) * std::pow(10, -digits_) > finest)
     ++digits_;
-  const detail::Transform transform = detail::finer(grid.transform, digits_);
+  const Transform transform = detail::finer(grid.transform, digits_);
   scale_ = transform.scale;
   translate_ = transform.translate;
 }
@@ -87,8 +87,7 @@ MicrometrePoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale
 namespace {
 
 /// Vertices that rounding makes one are one.
-std::vector<int> add_vertices(const Solid& solid, const detail::Transform& transform,
-                              Building& written) {
+std::vector<int> add_vertices(const Solid& solid, const Transform& transform, Building& written) {
   std::map<std::array<std::int64_t, 3>, int> numbers;
   std::vector<int> number_of;
   for (const Vertex& vertex : solid.vertices) {

@@ -12,7 +12,7 @@ namespace {
 
 /// Appends the coordinates of `p`, separated by blanks.
 void append_point(std::string& text, Vec3 p) {
-  text += detail::shortest(p.x) + ' ' + detail::shortest(p.y) + ' ' + detail::shortest(p.z);
+  text += shortest(p.x) + ' ' + shortest(p.y) + ' ' + shortest(p.z);
 }
 
 /// The points of the source, one a line. Doubled vertices are none of them.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace oriel::detail {
+namespace oriel {
 
 const CityValue* member_of(const CityMembers& members, std::string_view name) {
   const auto found = std::ranges::find(members, name, &CityMembers::value_type::first);
@@ -41,4 +41,4 @@ void append_json(std::string& out, const CityValue& value) {
   }
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

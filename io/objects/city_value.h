@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 struct CityValue;
 /// Members of an object in their order.
@@ -33,4 +33,4 @@ std::string_view member_text(const CityMembers& members, std::string_view name);
 /// Appends the value as JSON.
 void append_json(std::string& out, const CityValue& value);
 
-}  // namespace oriel::detail
+}  // namespace oriel

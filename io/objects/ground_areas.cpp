@@ -170,7 +170,7 @@ class AreaReader {
       }
     }
     // What is as steep as a wall lies over no ground.
-    if (area[0].size() < 3 || detail::looks_aside(normalised(area_vector(area[0])))) return;
+    if (area[0].size() < 3 || looks_aside(normalised(area_vector(area[0])))) return;
     add(std::move(area));
   }
 
@@ -190,15 +190,15 @@ class AreaReader {
 };
 
 [[noreturn]] void refuse_ground(const std::string& file, std::string sentence) {
-  throw InputError(detail::error_in({file, 0}, {Code::E190, std::move(sentence)}));
+  throw InputError(error_in({file, 0}, {Code::E190, std::move(sentence)}));
 }
 
 }  // namespace
 
 std::vector<GroundArea> read_ground_areas(const std::string& file) {
-  const std::string text = detail::Input(file).read_all();
+  const std::string text = Input(file).read_all();
   std::vector<Issue> issues;
-  const auto root = detail::parse_slowly({file, 0}, detail::without_bom(text), issues);
+  const auto root = parse_slowly({file, 0}, without_bom(text), issues);
   if (!root) throw InputError(issues.front());
   AreaReader reader;
   try {

@@ -38,19 +38,19 @@ std::optional<std::string> read_correction(const nlohmann::json& object, Correct
 }  // namespace
 
 Checked<std::vector<Correction>> read_corrections(const std::string& path) {
-  return corrections_in(detail::Input(path).read_all(), path);
+  return corrections_in(Input(path).read_all(), path);
 }
 
 Checked<std::vector<Correction>> corrections_in(std::string_view text, const std::string& path) {
   Checked<std::vector<Correction>> result;
   std::vector<Correction>& corrections = result.value.emplace();
-  detail::for_each_line(detail::without_bom(text), [&](std::string_view line, int number) {
-    const detail::TextName name{path, number};
-    const auto object = detail::parse_slowly(name, line, result.issues);
+  for_each_line(without_bom(text), [&](std::string_view line, int number) {
+    const TextName name{path, number};
+    const auto object = parse_slowly(name, line, result.issues);
     if (!object) return;
     Correction correction;
     if (const auto fault = read_correction(*object, correction)) {
-      result.issues.push_back(detail::error_in(name, {Code::E152, *fault}));
+      result.issues.push_back(error_in(name, {Code::E152, *fault}));
       return;
     }
     correction.place.file = path;

@@ -39,7 +39,7 @@ std::vector<RecordValue> attributes_of(const FeatureTable& table, FeatureId row)
 RecordFormat format_to_use(const std::string& path) {
   const auto format = record_format_of(path);
   if (format) return *format;
-  throw InputError(detail::error_in(
+  throw InputError(error_in(
       {path, 0}, {Code::E106,
                   "the format of the feature records is unknown; expected a name in .csv, .json or "
                   ".jsonl"}));
@@ -63,8 +63,7 @@ std::optional<std::string> set_polygons(FeatureRecord& record, std::string_view 
   for (const std::string& part : split(cell)) {
     const auto number = detail::as_whole(part);
     if (!number || *number < 0 || *number > std::numeric_limits<int>::max())
-      return fmt::format("'source_polygons' holds {}; expected whole numbers",
-                         detail::in_quotes(part));
+      return fmt::format("'source_polygons' holds {}; expected whole numbers", in_quotes(part));
     record.source_polygons.push_back(static_cast<int>(*number));
   }
   return std::nullopt;

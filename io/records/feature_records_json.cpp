@@ -11,13 +11,15 @@ namespace oriel::detail {
 
 namespace {
 
+using oriel::append_json;
+
 void append_json(std::string& out, const std::optional<double>& number) {
-  detail::append_json(out, number.value_or(std::numeric_limits<double>::quiet_NaN()));
+  append_json(out, number.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
 void append_json(std::string& out, const RecordValue& value) {
   if (const auto* text = std::get_if<std::string>(&value))
-    return detail::append_json(out, std::string_view(*text));
+    return append_json(out, std::string_view(*text));
   const auto* number = std::get_if<double>(&value);
   append_json(out, number == nullptr ? std::nullopt : std::optional(*number));
 }
@@ -79,7 +81,7 @@ void append_json_record(std::string& out, const FeatureRecord& record,
     return has_column(columns, at);
   };
   const auto text = [&](const std::string& value) {
-    if (key()) detail::append_json(out, std::string_view(value));
+    if (key()) append_json(out, std::string_view(value));
   };
   const auto number = [&](const std::optional<double>& value) {
     if (key()) append_json(out, value);

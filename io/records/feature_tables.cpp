@@ -36,7 +36,7 @@ std::optional<std::string> wrong_class(const detail::RecordCells& cells) {
       return fmt::format(
           "'{}' is {}; expected ids joined by ';', or a class and the number of its "
           "features, such as #3/12",
-          record_fields()[first + r], detail::in_quotes(cell));
+          record_fields()[first + r], in_quotes(cell));
   return std::nullopt;
 }
 

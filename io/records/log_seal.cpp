@@ -61,7 +61,7 @@ class LogChecker {
 
  private:
   [[noreturn]] void refuse(std::string sentence) {
-    throw InputError(detail::error_in(name_, {Code::E132, std::move(sentence)}));
+    throw InputError(error_in(name_, {Code::E132, std::move(sentence)}));
   }
 
   void check_line(std::string_view line) {
@@ -88,8 +88,8 @@ class LogChecker {
     end.at("levels").get_to(seal_.levels);
   }
 
-  detail::TextName name_;
-  detail::Input input_;
+  TextName name_;
+  Input input_;
   std::string check_;
   std::size_t operations_ = 0;
   bool has_checks_ = false, is_ended_ = false;

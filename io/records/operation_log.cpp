@@ -174,7 +174,7 @@ SeriesOperation operation_of(const ordered_json& json) {
   return operation;
 }
 
-SeriesOperation operation_in(std::string_view line, const detail::TextName& name) {
+SeriesOperation operation_in(std::string_view line, const TextName& name) {
   try {
     return operation_of(ordered_json::parse(line));
   } catch (const std::bad_alloc&) {
@@ -182,7 +182,7 @@ SeriesOperation operation_in(std::string_view line, const detail::TextName& name
   } catch (const std::exception& fault) {
     std::string sentence = "is not an operation of a series: ";
     sentence += fault.what();
-    throw InputError(detail::error_in(name, {Code::E119, std::move(sentence)}));
+    throw InputError(error_in(name, {Code::E119, std::move(sentence)}));
   }
 }
 
@@ -231,8 +231,8 @@ Checked<std::vector<SeriesOperation>> read_operations(std::string_view text,
 
 struct OperationReader::File {
   explicit File(const std::string& path) : name{path, 0}, input(path) {}
-  detail::TextName name;
-  detail::Input input;
+  TextName name;
+  Input input;
   std::string line;
 };
 

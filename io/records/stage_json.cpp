@@ -15,20 +15,14 @@ namespace oriel {
 
 namespace {
 
-using detail::append_field;
-using detail::append_json;
-using detail::append_json_array;
-using detail::append_json_key;
-using detail::append_list;
-using detail::append_objects;
-using detail::append_vector;
+using oriel::append_field;
 
 void append_field(std::string& out, std::string_view key, const std::optional<double>& value) {
-  detail::append_field(out, key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  append_field(out, key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
 void append_field(std::string& out, std::string_view key, std::size_t count) {
-  detail::append_field(out, key, static_cast<std::int64_t>(count));
+  append_field(out, key, static_cast<std::int64_t>(count));
 }
 
 template <class Ids>

@@ -48,13 +48,13 @@ std::optional<std::string> read_root(const json& root, GroundTruth& truth) {
   return std::nullopt;
 }
 
-Checked<GroundTruth> truth_of(const detail::TextName& name, std::string_view text) {
+Checked<GroundTruth> truth_of(const TextName& name, std::string_view text) {
   Checked<GroundTruth> result;
-  const auto root = detail::parse_slowly(name, text, result.issues);
+  const auto root = parse_slowly(name, text, result.issues);
   if (!root) return result;
   GroundTruth truth;
   if (const auto fault = read_root(*root, truth))
-    result.issues.push_back(detail::error_in(name, {Code::E112, *fault}));
+    result.issues.push_back(error_in(name, {Code::E112, *fault}));
   else
     result.value = std::move(truth);
   return result;
@@ -63,8 +63,8 @@ Checked<GroundTruth> truth_of(const detail::TextName& name, std::string_view tex
 }  // namespace
 
 Checked<GroundTruth> read_truth(const std::string& path) {
-  const std::string text = detail::Input(path).read_all();
-  return truth_of({path, 0}, detail::without_bom(text));
+  const std::string text = Input(path).read_all();
+  return truth_of({path, 0}, without_bom(text));
 }
 
 Checked<std::vector<GroundTruth>> read_truths(const std::string& path) {
@@ -79,12 +79,12 @@ Checked<std::vector<GroundTruth>> read_truths(const std::string& path) {
     add(read_truth(path));
     return result;
   }
-  const std::string text = detail::Input(path).read_all();
-  detail::for_each_line(detail::without_bom(text), [&](std::string_view line, int number) {
+  const std::string text = Input(path).read_all();
+  for_each_line(without_bom(text), [&](std::string_view line, int number) {
     add(truth_of({path, number}, line));
   });
   if (!result.value && result.issues.empty())
-    result.issues.push_back(detail::error_in({path, 0}, {Code::E102, "the file is empty"}));
+    result.issues.push_back(error_in({path, 0}, {Code::E102, "the file is empty"}));
   return result;
 }
 

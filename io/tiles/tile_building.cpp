@@ -89,8 +89,7 @@ TileBuildings::~TileBuildings() {
 }
 
 void TileBuildings::fail(const std::string& why) const {
-  throw InputError(
-      detail::error_in(detail::TextName{path_, 0}, {Code::E101, "cannot be read: " + why}));
+  throw InputError(error_in(TextName{path_, 0}, {Code::E101, "cannot be read: " + why}));
 }
 
 std::string TileBuildings::read(std::uint64_t at, std::uint64_t bytes) const {

@@ -138,7 +138,7 @@ class Attacher {
         clearance_(clearance),
         spare_(spare) {
     ORIEL_ASSERT(spare == nullptr || spare == &solid);
-    clearance_.least_m = std::max(clearance.least_m, detail::kLeastEdge_m);
+    clearance_.least_m = std::max(clearance.least_m, kLeastEdge_m);
     for (const FacetId own : clearance_.own)
       for_each_edge(own, [this](int a, int b) { own_edges_.emplace(b, a); });
     const Plane& first = plane_of(contacts_[0]);
@@ -234,8 +234,8 @@ class Attacher {
       const Vec3 along = normalised(to - from);
       const auto fits = [&](int c) {
         const double s = dot(corner(c) - from, along);
-        return s >= detail::kLeastEdge_m && s <= length(to - from) - detail::kLeastEdge_m &&
-               length(corner(c) - from - s * along) < detail::kLeastEdge_m;
+        return s >= kLeastEdge_m && s <= length(to - from) - kLeastEdge_m &&
+               length(corner(c) - from - s * along) < kLeastEdge_m;
       };
       const bool is_within = fits(notch_.first) && fits(notch_.second);
       if (!is_within && !(gets_tab() && is_spanned(from, to))) return;
@@ -252,8 +252,8 @@ class Attacher {
     const double length_m = length(corner(notch_.second) - p);
     return std::ranges::all_of(std::array{from, to}, [&](Vec3 end) {
       const double s = dot(end - p, along);
-      return s >= detail::kLeastEdge_m && s <= length_m - detail::kLeastEdge_m &&
-             length(end - p - s * along) < detail::kLeastEdge_m;
+      return s >= kLeastEdge_m && s <= length_m - kLeastEdge_m &&
+             length(end - p - s * along) < kLeastEdge_m;
     });
   }
   [[nodiscard]] bool is_on_second(int c) const {
@@ -270,14 +270,14 @@ class Attacher {
   /// and a tab lies outside.
   [[nodiscard]] bool is_inside(std::size_t contact) const {
     const Vec3 normal = solid_.planes[facet(contacts_[contact]).plane.index()].normal;
-    const auto outlines = detail::outlines_of(solid_.vertices, facet(contacts_[contact]).loops);
+    const auto outlines = outlines_of(solid_.vertices, facet(contacts_[contact]).loops);
     const Loop& loop = body_.loops[contact];
     bool is_clear = true;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int p = loop[i], q = loop[(i + 1) % loop.size()];
       const bool is_outside = contact == 1 && gets_tab();
       const bool is_at_edge = is_of_notch(p) && !(is_wide_ && contact == 0);
-      if (!is_at_edge && detail::contains(outlines, normal, corner(p)) == is_outside) return false;
+      if (!is_at_edge && contains(outlines, normal, corner(p)) == is_outside) return false;
       if (is_of_notch(p) && is_of_notch(q)) continue;
       for_each_edge(contacts_[contact], [&](int a, int b) {
         // The edge that is cut is the body's own: its height or depth lies between.
@@ -287,12 +287,12 @@ class Attacher {
     }
     if (is_wide_ && contact == 0) is_clear = is_clear && has_clear_ends();
     // A hole of the facet may lie inside the outline.
-    detail::Outline mine;
+    Outline mine;
     for (const int c : loop) mine.push_back(corner(c));
-    const std::array<detail::Outline, 1> only{mine};
+    const std::array<Outline, 1> only{mine};
     for (std::size_t o = 0; o < outlines.size(); ++o)
       if (!(is_wide_ && has_cut_edge(facet(contacts_[contact]).loops[o])) &&
-          detail::contains(only, normal, outlines[o][0]))
+          contains(only, normal, outlines[o][0]))
         return false;
     return is_clear;
   }
@@ -314,9 +314,8 @@ class Attacher {
   /// A segment keeps its distance from an edge of a contact.
   [[nodiscard]] bool keeps_off(const LineSegment& mine, int a, int b) const {
     const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
-    if (own_edges_.contains({a, b})) return detail::distance(mine, edge) >= detail::kLeastEdge_m;
-    return is_far_off(mine, edge) ||
-           !detail::is_too_near(clearance_, detail::distance(mine, edge), edge);
+    if (own_edges_.contains({a, b})) return distance(mine, edge) >= kLeastEdge_m;
+    return is_far_off(mine, edge) || !is_too_near(clearance_, distance(mine, edge), edge);
   }
   /// Their boxes are further apart than the clearance: their distance need not be known.
   [[nodiscard]] bool is_far_off(const LineSegment& p, const LineSegment& q) const {
@@ -331,8 +330,8 @@ class Attacher {
   [[nodiscard]] bool is_of_notch(int c) const { return c == notch_.first || c == notch_.second; }
 
   /// What lies behind the body's planes, but those of the contacts moved out.
-  [[nodiscard]] std::vector<detail::HalfSpaceM> grown_by(double by_m) const {
-    std::vector<detail::HalfSpaceM> limits;
+  [[nodiscard]] std::vector<HalfSpaceM> grown_by(double by_m) const {
+    std::vector<HalfSpaceM> limits;
     for (std::size_t p = 0; p < planes_.size(); ++p)
       limits.push_back(
           {planes_[p].normal, planes_[p].offset_m + (p < contacts_.size() ? 0 : by_m)});
@@ -351,13 +350,11 @@ class Attacher {
       const Facet& other = solid_.facets[f.index()];
       if (is_far(other, box, reach_m)) continue;
       const Vec3 normal = solid_.planes[other.plane.index()].normal;
-      if (detail::area_within(solid_.vertices, other, normal, limits) <= detail::kTouch_m2)
-        continue;
+      if (area_within(solid_.vertices, other, normal, limits) <= kTouch_m2) continue;
       const bool is_own = std::ranges::find(clearance_.own, f) != clearance_.own.end();
       const double near_m = is_own ? 0 : nearest_before(f);
       if (near_m >= clearance_.least_m ||
-          detail::area_within(solid_.vertices, other, normal, grown_by(kNearly * near_m)) >
-              detail::kTouch_m2)
+          area_within(solid_.vertices, other, normal, grown_by(kNearly * near_m)) > kTouch_m2)
         return true;
     }
     return false;
@@ -366,10 +363,10 @@ class Attacher {
   [[nodiscard]] double nearest_before(FacetId id) const {
     double near_m = clearance_.least_m;
     for_each_edge(id, [&](int a, int b) {
-      near_m = std::min(near_m, detail::needed_m(clearance_, {solid_.vertices[at(a)].point,
-                                                              solid_.vertices[at(b)].point}));
+      near_m = std::min(near_m, needed_m(clearance_, {solid_.vertices[at(a)].point,
+                                                      solid_.vertices[at(b)].point}));
     });
-    return near_m > detail::kLeastEdge_m ? near_m : 0;
+    return near_m > kLeastEdge_m ? near_m : 0;
   }
 
   [[nodiscard]] bool is_far(const Facet& other, const Box& box, double reach_m) const {

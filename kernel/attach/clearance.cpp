@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 double distance(std::pair<Vec3, Vec3> p, std::pair<Vec3, Vec3> q) {
   const Vec3 u = p.second - p.first, v = q.second - q.first, w = p.first - q.first;
@@ -88,4 +88,4 @@ bool is_in_the_way(const Solid& solid, FacetId facet, const Moves& moves) {
   return false;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Parts of facets smaller than this are not met but touched.
 inline constexpr double kTouch_m2 = 1e-9;
@@ -38,4 +38,4 @@ using Moves = std::map<int, Vec3>;
 /// go.
 bool is_in_the_way(const Solid& solid, FacetId facet, const Moves& moves);
 
-}  // namespace oriel::detail
+}  // namespace oriel

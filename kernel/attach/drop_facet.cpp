@@ -33,8 +33,7 @@ class FacetDropper {
     if (std::string reason = meet(); !reason.empty()) return refused(std::move(reason));
     if (leaves_less_than_triangle()) return refused("a neighbouring facet would vanish");
     if (turns_edge()) return refused("a neighbouring edge would vanish");
-    if (detail::is_in_the_way(solid_, dropped_, moves_))
-      return refused("something lies in its way");
+    if (is_in_the_way(solid_, dropped_, moves_)) return refused("something lies in its way");
     return {without_facet(), {}};
   }
 
@@ -132,8 +131,7 @@ class FacetDropper {
           const int p = loop[i], q = loop[(i + 1) % loop.size()];
           if (after(p) == after(q)) continue;
           const Vec3 was = point(q) - point(p);
-          if (dot(point_after(q) - point_after(p), was) < detail::kLeastEdge_m * length(was))
-            return true;
+          if (dot(point_after(q) - point_after(p), was) < kLeastEdge_m * length(was)) return true;
         }
     return false;
   }
@@ -157,7 +155,7 @@ class FacetDropper {
   double reach_m_;
   Loop corners_;
   std::vector<FacetId> sides_;  ///< of each side of the dropped facet the one beside it
-  detail::Moves moves_;         ///< by corner
+  Moves moves_;                 ///< by corner
   std::map<int, int> becomes_;  ///< by corner the vertex that stands for it
 };
 

@@ -31,8 +31,7 @@ class FacetMover {
     for (auto& [vertex, corner] : moved_)
       if (!meet(corner)) return {std::nullopt, "more than three planes meet in one of its corners"};
     if (turns_edge()) return {std::nullopt, "an edge of it would vanish"};
-    if (detail::is_in_the_way(solid_, moving_, moves()))
-      return {std::nullopt, "something lies in its way"};
+    if (is_in_the_way(solid_, moving_, moves())) return {std::nullopt, "something lies in its way"};
     Solid out = solid_;
     out.facets[moving_.index()].plane = {static_cast<int>(out.planes.size())};
     out.planes.push_back(to_);
@@ -80,8 +79,8 @@ class FacetMover {
     return found == moved_.end() ? before(v) : found->second.point;
   }
 
-  [[nodiscard]] detail::Moves moves() const {
-    detail::Moves moves;
+  [[nodiscard]] Moves moves() const {
+    Moves moves;
     for (const auto& [v, corner] : moved_) moves.emplace(v, corner.point);
     return moves;
   }
@@ -93,7 +92,7 @@ class FacetMover {
           const int p = loop[i], q = loop[(i + 1) % loop.size()];
           if (!moved_.contains(p) && !moved_.contains(q)) continue;
           const Vec3 was = before(q) - before(p);
-          if (dot(after(q) - after(p), was) < detail::kLeastEdge_m * length(was)) return true;
+          if (dot(after(q) - after(p), was) < kLeastEdge_m * length(was)) return true;
         }
     return false;
   }

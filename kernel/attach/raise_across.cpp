@@ -62,9 +62,8 @@ class FootTracer {
       if (reason != nullptr) return {{}, reason};
       if (line_.back().side != 0 || line_.back().is_crossing()) continue;
       // Round to where it began.
-      const bool is_closed =
-          line_.back().facet == line_.front().facet &&
-          length(line_.back().point - line_.front().point) < detail::kLeastEdge_m;
+      const bool is_closed = line_.back().facet == line_.front().facet &&
+                             length(line_.back().point - line_.front().point) < kLeastEdge_m;
       line_.pop_back();
       if (!is_closed) break;
       return {std::move(line_), {}};
@@ -89,9 +88,8 @@ class FootTracer {
       const Plane& plane = plane_of(f);
       if (plane.normal.z <= kRoof) continue;
       const auto corner = meeting(plane, sides_.back(), sides_.front());
-      if (!corner ||
-          !detail::contains(detail::outlines_of(solid_.vertices, solid_.facets[f.index()].loops),
-                            plane.normal, *corner))
+      if (!corner || !contains(outlines_of(solid_.vertices, solid_.facets[f.index()].loops),
+                               plane.normal, *corner))
         continue;
       if (!line_.empty() && line_[0].point.z >= corner->z) continue;
       line_ = {{*corner, true, 0, f, {-1, -1}}};
@@ -117,7 +115,7 @@ class FootTracer {
         to_edge = way;
         crossed = edge;
       }
-    if (std::abs(to_edge - to_corner) < detail::kLeastEdge_m) return "its corner lies on an edge";
+    if (std::abs(to_edge - to_corner) < kLeastEdge_m) return "its corner lies on an edge";
     return to_corner < to_edge ? turn(here, next) : cross_over(here, crossed);
   }
 
@@ -150,7 +148,7 @@ class FootTracer {
     const Vec3 a = solid_.vertices[at(edge.first)].point;
     const Vec3 b = solid_.vertices[at(edge.second)].point;
     const auto met = meeting(plane_of(here.facet), plane_of(*beyond), side(here.side));
-    const bool is_meeting = met && detail::distance_to_segment(*met, a, b) < detail::kLeastEdge_m;
+    const bool is_meeting = met && distance_to_segment(*met, a, b) < kLeastEdge_m;
     const double of_a = ahead_of(side(here.side), a), of_b = ahead_of(side(here.side), b);
     const Vec3 on_edge = exact::on_grid(a + of_a / (of_a - of_b) * (b - a), solid_.grid_m);
     line_.push_back({is_meeting ? *met : on_edge, is_meeting, here.side, *beyond, edge});
@@ -233,7 +231,7 @@ class AcrossRaiser {
   }
 
   [[nodiscard]] bool draws_short_edge() const {
-    const double least_m = std::max(block_.least_edge_m, detail::kLeastEdge_m);
+    const double least_m = std::max(block_.least_edge_m, kLeastEdge_m);
     for (std::size_t k = 0; k < line_.size(); ++k) {
       if (length(after(k).point - line_[k].point) < least_m) return true;
       if (!line_[k].is_crossing()) continue;
@@ -250,8 +248,7 @@ class AcrossRaiser {
           const int a = loop[i], b = loop[(i + 1) % loop.size()];
           if (crossed_.contains({a, b}) || (is_inside(point(a)) && is_inside(point(b)))) continue;
           const std::pair edge{point(a), point(b)};
-          if (detail::is_too_near(clearance_,
-                                  detail::distance({line_[k].point, after(k).point}, edge), edge))
+          if (is_too_near(clearance_, distance({line_[k].point, after(k).point}, edge), edge))
             return false;
         }
     return true;
@@ -262,7 +259,7 @@ class AcrossRaiser {
     for (std::size_t k = 0; k < line_.size(); ++k) {
       if (!line_[k].is_crossing()) continue;
       for (const int v : {line_[k].edge.first, line_[k].edge.second})
-        if (is_inside(point(v)) && ahead_of(top(), point(v)) > -detail::kLeastEdge_m) return false;
+        if (is_inside(point(v)) && ahead_of(top(), point(v)) > -kLeastEdge_m) return false;
     }
     for (std::size_t i = 0; i < block_.sides.size(); ++i) {
       if (!has_upright_edge(i)) continue;
@@ -272,8 +269,8 @@ class AcrossRaiser {
       tops_.push_back(exact::to_metres(*met, solid_.grid_m));
     }
     return std::ranges::all_of(line_, [&](const FootPoint& here) {
-      const bool is_on_top = !block_.lid && (ahead_of(top(), here.point) > -detail::kLeastEdge_m);
-      return is_on_top || ahead_of(top(), here.point) < -detail::kLeastEdge_m;
+      const bool is_on_top = !block_.lid && (ahead_of(top(), here.point) > -kLeastEdge_m);
+      return is_on_top || ahead_of(top(), here.point) < -kLeastEdge_m;
     });
   }
 
@@ -292,8 +289,8 @@ class AcrossRaiser {
   /// facets under it, in a valley above all.
   [[nodiscard]] bool meets_others() const {
     constexpr double kNearlyAll = 0.999;
-    std::vector<detail::HalfSpaceM> limits;
-    const double grown_m = kNearlyAll * std::max(clearance_.least_m, detail::kLeastEdge_m);
+    std::vector<HalfSpaceM> limits;
+    const double grown_m = kNearlyAll * std::max(clearance_.least_m, kLeastEdge_m);
     for (const Plane& side : block_.sides) limits.push_back({side.normal, side.offset_m + grown_m});
     if (block_.lid) limits.push_back({block_.lid->normal, block_.lid->offset_m + grown_m});
     const std::size_t count = limits.size();
@@ -307,8 +304,7 @@ class AcrossRaiser {
         if (!is_above_all) limits.resize(count);
         limits.push_back({-plane.normal, -plane.offset_m});
         if (is_above_all && limits.size() < count + under_.size()) continue;
-        if (detail::area_within(solid_.vertices, solid_.facets[f.index()], normal, limits) >
-            detail::kTouch_m2)
+        if (area_within(solid_.vertices, solid_.facets[f.index()], normal, limits) > kTouch_m2)
           return true;
       }
     }
@@ -396,9 +392,8 @@ class AcrossRaiser {
     }
     for (std::size_t l = 1; l < whole.loops.size(); ++l) {
       const auto around = std::ranges::find_if(ids, [&](FacetId piece) {
-        return detail::contains(
-            detail::outlines_of(solid.vertices, {solid.facets[piece.index()].loops[0]}),
-            plane.normal, point(whole.loops[l][0]));
+        return contains(outlines_of(solid.vertices, {solid.facets[piece.index()].loops[0]}),
+                        plane.normal, point(whole.loops[l][0]));
       });
       if (around == ids.end()) return "its outline does not fit into the facet";
       solid.facets[around->index()].loops.push_back(whole.loops[l]);

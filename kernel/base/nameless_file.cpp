@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::string scratch_folder(const std::string& output) {
   return folder.empty() ? "." : folder.string();
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// A file without a name in a folder: it is gone when it is closed, whatever ends the program. What
 /// fails throws OutputError E601 about `about`, the file or folder that it is written for.
@@ -44,4 +44,4 @@ class NamelessFile {
 /// pipe or a device.
 std::string scratch_folder(const std::string& output);
 
-}  // namespace oriel::detail
+}  // namespace oriel

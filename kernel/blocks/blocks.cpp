@@ -77,7 +77,7 @@ std::optional<SimplerFootprint> simplify_footprint(const Solid& solid, const Blo
   SimplerFootprint out;
   out.short_edges = simplify(
       blocks, {options.least_edge_m, tolerances.weld_m, options.may_cover, options.is_shared});
-  auto made = solid_of(blocks, tolerances);
+  auto made = block_solid(blocks, tolerances);
   if (!made) return std::nullopt;
   out.solid = std::move(*made);
   return out;
@@ -241,7 +241,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Arrangement;
 using detail::PlanView;
 
 /// A corner of a triangle seen from above, with the height of the roof over it.
@@ -426,7 +425,7 @@ class BlockBuilder {
   /// Joins regions that are to have one top. In a courtyard that was closed no roof is seen: it
   /// takes the height of what is around it.
   void join(bool is_by_roof) {
-    detail::DisjointSets joined(regions().size());
+    DisjointSets joined(regions().size());
     for (std::size_t h = 0; h < plan_.half_edge_count(); ++h) {
       const std::size_t r = plan_.region(h), s = plan_.region(Arrangement::twin(h));
       if (part_of_[r] < 0 || part_of_[s] < 0) continue;
@@ -488,7 +487,7 @@ class BlockBuilder {
     for (std::size_t r = 1; r < regions().size(); ++r) {
       const PlanView::PlanRegion& region = regions()[r];
       if (part_of_[r] < 0 || region.top < 0 || region.is_thin) continue;
-      for (const detail::Outline& outline : region.outlines)
+      for (const Outline& outline : region.outlines)
         for (std::size_t i = 2; i < outline.size(); ++i)
           fans[at(part_of_[r])].push_back({corner(region.top, outline[0]),
                                            corner(region.top, outline[i - 1]),

@@ -23,7 +23,7 @@ struct BlockOptions {
   /// Courtyards and separate pieces of the footprint with less area than this go; 0: none do.
   double least_piece_m2 = 0;
   /// Of one block: edges of the footprint that are shorter go, where they can
-  /// (detail::simplify_outlines); 0: none do.
+  /// (simplify_outlines); 0: none do.
   double least_edge_m = 0;
   /// True if no other building stands over the box of the plan: the footprint may come to cover
   /// more of it than it did. Null: nobody knows, and it only ever covers less.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -67,4 +67,4 @@ Building faces_of(const GabledBlock& block, double grid_m) {
   return building;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

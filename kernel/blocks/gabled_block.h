@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// A block under a gabled roof, whose ridge runs over the middle of its ground.
 struct GabledBlock {
@@ -24,4 +24,4 @@ std::optional<Outline> under_ridge(const Outline& outline, Vec3 ridge);
 /// Its walls, roof and ground. The ends of the ridge are on the grid.
 Building faces_of(const GabledBlock& block, double grid_m);
 
-}  // namespace oriel::detail
+}  // namespace oriel

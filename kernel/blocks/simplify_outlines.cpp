@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -281,4 +281,4 @@ int simplify_outlines(std::vector<Outline>& outlines, const OutlineLimits& limit
   return OutlineSimplifier(outlines, limits).run();
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

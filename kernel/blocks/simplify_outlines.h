@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// How outlines in the plan are simplified.
 struct OutlineLimits {
@@ -39,4 +39,4 @@ struct OutlineLimits {
 /// generalization and data abstraction).
 int simplify_outlines(std::vector<Outline>& outlines, const OutlineLimits& limits);
 
-}  // namespace oriel::detail
+}  // namespace oriel

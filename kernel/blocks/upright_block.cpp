@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -58,15 +58,15 @@ Building faces_of(const std::vector<UprightBlock>& blocks) {
   return std::move(faces.building);
 }
 
-std::optional<Solid> solid_of(const Building& faces, const Tolerances& tolerances) {
+std::optional<Solid> block_solid(const Building& faces, const Tolerances& tolerances) {
   auto made = solidify(faces, tolerances, {Closing::planar});
   if (!made.value || !is_closed(*made.value)) return std::nullopt;
   return std::move(*made.value);
 }
 
-std::optional<Solid> solid_of(const std::vector<UprightBlock>& blocks,
-                              const Tolerances& tolerances) {
-  return solid_of(faces_of(blocks), tolerances);
+std::optional<Solid> block_solid(const std::vector<UprightBlock>& blocks,
+                                 const Tolerances& tolerances) {
+  return block_solid(faces_of(blocks), tolerances);
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// A piece of ground and the block on it.
 struct UprightBlock {
@@ -20,10 +20,10 @@ struct UprightBlock {
 Building faces_of(const std::vector<UprightBlock>& blocks);
 
 /// The solid that faces make; nothing if it does not close.
-std::optional<Solid> solid_of(const Building& faces, const Tolerances& tolerances);
+std::optional<Solid> block_solid(const Building& faces, const Tolerances& tolerances);
 
 /// The solid that they make; nothing if it does not close.
-std::optional<Solid> solid_of(const std::vector<UprightBlock>& blocks,
-                              const Tolerances& tolerances);
+std::optional<Solid> block_solid(const std::vector<UprightBlock>& blocks,
+                                 const Tolerances& tolerances);
 
-}  // namespace oriel::detail
+}  // namespace oriel

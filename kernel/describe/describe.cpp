@@ -168,10 +168,10 @@ void describe_size(FeatureTable& table, const DescribedFeature& s) {
   table.set(s.id, Attribute::height, s.box.height);
   if (!s.normal) return;
   table.set(s.id, Attribute::depth, without_dust(detail::extent_along(s.points, *s.normal).size()));
-  const double inclination = detail::inclination_deg(*s.normal);
+  const double inclination = inclination_deg(*s.normal);
   table.set(s.id, Attribute::inclination, inclination);
   if (is_level(inclination)) return;
-  table.set(s.id, Attribute::azimuth, detail::azimuth_deg(*s.normal));
+  table.set(s.id, Attribute::azimuth, azimuth_deg(*s.normal));
 }
 
 /// How far cells reach, each direction of a cell measured once.
@@ -280,14 +280,14 @@ void describe_place(FeatureTable& table, const DescribedFeature& s,
   const Cell& cell = segmentation.cells[facet->cell.index()];
   const Vec3 normal = segmentation.planes[cell.facets[at(facet->facet)].plane.index()].normal;
   // The facets of a void look away from it, into the building.
-  table.set(s.id, Attribute::host_inclination, detail::inclination_deg(cell.sign * normal));
+  table.set(s.id, Attribute::host_inclination, inclination_deg(cell.sign * normal));
   if (const auto eaves = site.eaves_m(facet->cell))
     table.set(s.id, Attribute::above_eaves, box.min.z - *eaves);
 }
 
 /// The smallest distance of the cap's corners to the outline of the host's facet.
 void describe_edge_gap(FeatureTable& table, const DescribedFeature& s, const Plane& plane,
-                       const detail::Outline& outline, Work& work) {
+                       const Outline& outline, Work& work) {
   constexpr double kOnPlane_m =
       1e-6;  // tolerance of doubles: the corners of the cap lie on its plane
   double gap = Box::kInfinity;
@@ -296,8 +296,7 @@ void describe_edge_gap(FeatureTable& table, const DescribedFeature& s, const Pla
     work.add(std::ssize(outline));
     if (work.is_used_up()) return;
     for (std::size_t i = 0; i < outline.size(); ++i)
-      gap = std::min(gap,
-                     detail::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
+      gap = std::min(gap, distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
   }
   if (gap < Box::kInfinity) table.set(s.id, Attribute::edge_gap, gap);
 }
@@ -308,14 +307,14 @@ void describe_place_in_facet(FeatureTable& table, const DescribedFeature& s,
                              Work& work) {
   if (!s.feature->host_facet) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
-  const auto outline = detail::outlines_of(segmentation, *s.feature->host_facet).front();
+  const auto outline = detail::facet_outlines(segmentation, *s.feature->host_facet).front();
   describe_edge_gap(table, s, plane, outline, work);
-  if (is_level(detail::inclination_deg(*s.normal))) return;
+  if (is_level(inclination_deg(*s.normal))) return;
   const CellFacet host = *s.feature->host_facet;
   const CellFacet facade = *facades.of(*s.feature);
   const bool is_host = facade.cell == host.cell && facade.facet == host.facet;
   const double left =
-      detail::extent_along(is_host ? outline : detail::outlines_of(segmentation, facade).front(),
+      detail::extent_along(is_host ? outline : detail::facet_outlines(segmentation, facade).front(),
                            s.across)
           .low;
   table.set(s.id, Attribute::along, s.width.middle() - left);

@@ -146,10 +146,10 @@ void SurfaceSurvey::State::describe(std::size_t row) {
   }
   if (face.normal == Vec3{}) return;
   const Vec3 normal = outward(row);
-  const double inclination = detail::inclination_deg(normal);
+  const double inclination = inclination_deg(normal);
   table.set(row, SurfaceAttribute::inclination, inclination);
   if (std::min(inclination, 180 - inclination) <= kLevel_deg) return;
-  table.set(row, SurfaceAttribute::azimuth, detail::azimuth_deg(normal));
+  table.set(row, SurfaceAttribute::azimuth, azimuth_deg(normal));
 }
 
 void SurfaceSurvey::State::measure_sides(std::size_t row) {
@@ -182,7 +182,7 @@ bool SurfaceSurvey::State::is_below(const std::optional<LineCrossing>& above, Ve
 void SurfaceSurvey::State::measure_surroundings(std::size_t row) {
   const SurfaceFace& face = faces[row];
   if (face.is_steep()) return;
-  const detail::OutlineView outline = face.outlines[0];
+  const OutlineView outline = face.outlines[0];
   double all_m = 0, up_m = 0, down_m = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec3 from = outline[i], edge = outline[(i + 1) % outline.size()] - from;

@@ -6,7 +6,7 @@
 #include <bit>
 #include <numeric>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -62,4 +62,4 @@ bool comes_near(const Box& box, Vec3 from, Vec3 to, double reach) {
   return enter <= leave;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

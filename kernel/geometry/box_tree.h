@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Boxes in a balanced tree, for searches that look at few of them: each node's items are halved
 /// along the longest side of its box. Takes O(n log n) to make; coordinates are compared, never
@@ -48,4 +48,4 @@ class BoxTree {
 /// True if the segment comes as near as `reach` to the box, or nearly so.
 bool comes_near(const Box& box, Vec3 from, Vec3 to, double reach);
 
-}  // namespace oriel::detail
+}  // namespace oriel

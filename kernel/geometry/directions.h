@@ -6,7 +6,7 @@
 #include <numbers>
 
 /// Directions in degrees, as tables have them, and facets told apart by their slope.
-namespace oriel::detail {
+namespace oriel {
 
 inline constexpr double kDegree_rad = std::numbers::pi / 180;
 
@@ -33,4 +33,4 @@ inline bool looks_down(Vec3 normal) { return normal.z < -kSteepestRoof; }
 /// A wall, likewise.
 inline bool looks_aside(Vec3 normal) { return std::abs(normal.z) <= kSteepestRoof; }
 
-}  // namespace oriel::detail
+}  // namespace oriel

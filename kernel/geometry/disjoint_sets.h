@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Disjoint sets of 0…size-1, each known by its smallest member.
 class DisjointSets {
@@ -33,4 +33,4 @@ class DisjointSets {
   Numbers parent_;
 };
 
-}  // namespace oriel::detail
+}  // namespace oriel

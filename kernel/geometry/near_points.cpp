@@ -8,7 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -145,4 +145,4 @@ Numbers group_near_points(std::span<const MicrometrePoint> points, double reach,
   return group_near(points, reach, is_pair);
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// For every point of a sorted list without doubles the first point of its group: pairs closer than
 /// `reach` (in the unit of the points) are in one group, and so are those that such pairs link.
@@ -16,4 +16,4 @@ Numbers group_near_points(std::span<const exact::GridPoint> points, double reach
 Numbers group_near_points(std::span<const MicrometrePoint> points, double reach,
                           const std::function<bool(int, int)>& is_pair = {});
 
-}  // namespace oriel::detail
+}  // namespace oriel

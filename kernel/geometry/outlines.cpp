@@ -2,7 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 
-namespace oriel::detail {
+namespace oriel {
 
 std::vector<Outline> outlines_of(const Building& building, const Polygon& polygon, double grid_m) {
   std::vector<Outline> outlines = outlines_of(building, polygon);
@@ -63,4 +63,4 @@ double area_within(std::span<const Vertex> vertices, const Facet& facet, Vec3 no
   return area_m2;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

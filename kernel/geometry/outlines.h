@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// The rings of an input polygon as outlines, the outer one first, on a grid of `grid_m`
 /// (exact::on_grid): the solid's, so that they meet its facets, and so that the format a building
@@ -30,4 +30,4 @@ struct HalfSpaceM {
 double area_within(std::span<const Vertex> vertices, const Facet& facet, Vec3 normal,
                    const std::vector<HalfSpaceM>& limits);
 
-}  // namespace oriel::detail
+}  // namespace oriel

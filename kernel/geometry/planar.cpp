@@ -11,7 +11,7 @@
 
 #include <boost/container/small_vector.hpp>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -208,4 +208,4 @@ std::optional<double> visible_level(std::span<ParallelArea> areas, double outlin
   return level;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

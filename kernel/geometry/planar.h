@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Plane figures given as loops of points in space, all in one plane.
-namespace oriel::detail {
+namespace oriel {
 
 using Outline = std::vector<Vec3>;
 /// The points of an outline that stand elsewhere.
@@ -114,4 +114,4 @@ inline ReachAxes axes_in(Vec3 normal) {
   return {u, cross(normal, u)};
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

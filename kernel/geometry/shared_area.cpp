@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -107,4 +107,4 @@ double figure_area_m2(std::span<const Outline> figure, Vec3 normal) {
   return sum_m2;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -50,7 +50,7 @@ struct LiteralBody {
 struct FacetAbove {
   Plane plane;
   Box box;
-  std::vector<detail::Outline> outlines;
+  std::vector<Outline> outlines;
   std::int64_t corners = 0;
 };
 
@@ -63,7 +63,7 @@ std::vector<FacetAbove> facets_above(const Solid& solid) {
     FacetAbove& above = facets.emplace_back();
     above.plane = plane;
     for (const Loop& loop : facet.loops) {
-      detail::Outline& outline = above.outlines.emplace_back();
+      Outline& outline = above.outlines.emplace_back();
       for (const int v : loop) {
         outline.push_back(solid.vertices[at(v)].point);
         above.box.grow(outline.back());
@@ -87,7 +87,7 @@ Bits regions_in(const Solid& solid, const PlaneArrangement& arrangement, Work& w
       const Box& box = facet.box;
       if (p.x < box.min.x || p.x > box.max.x || p.y < box.min.y || p.y > box.max.y) continue;
       work.add(facet.corners);
-      if (p.z > box.max.z || !detail::contains(facet.outlines, {0, 0, 1}, p)) continue;
+      if (p.z > box.max.z || !contains(facet.outlines, {0, 0, 1}, p)) continue;
       const Vec3 n = facet.plane.normal;
       if ((facet.plane.offset_m - n.x * p.x - n.y * p.y) / n.z > p.z) is_inside = !is_inside;
     }

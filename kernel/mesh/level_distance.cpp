@@ -35,7 +35,7 @@ double distance_to(Vec3 p, const Corners& t) {
   if (is_above) return std::abs(dot(p - t[0], normal)) / size;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i)
-    least = std::min(least, detail::distance_to_segment(p, t[i], t[(i + 1) % 3]));
+    least = std::min(least, distance_to_segment(p, t[i], t[(i + 1) % 3]));
   return least;
 }
 
@@ -247,7 +247,7 @@ struct LevelSurface::Parts {
   void triangulate(const Facet& facet, const std::vector<Loop>& loops,
                    std::vector<Corners>& out) const {
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
-    for (const auto& [a, b, c] : detail::triangulate_quickly(points, loops, normal))
+    for (const auto& [a, b, c] : triangulate_quickly(points, loops, normal))
       out.push_back({points[at(a)], points[at(b)], points[at(c)]});
   }
 };

@@ -184,7 +184,7 @@ constexpr double kSamePlane_m = 1e-4, kUncovered_m2 = 1e-6;
 
 /// A facet of a solid with what tells whether another one lies in it.
 struct FacetFigure {
-  std::vector<detail::Outline> outlines;
+  std::vector<Outline> outlines;
   Vec3 normal;
   double offset_m = 0;
   Box box;
@@ -192,16 +192,15 @@ struct FacetFigure {
 
 FacetFigure figure_of(const Solid& solid, const Facet& facet) {
   const Plane& plane = solid.planes[facet.plane.index()];
-  FacetFigure figure{
-      detail::outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m, {}};
-  for (const detail::Outline& outline : figure.outlines)
+  FacetFigure figure{outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m, {}};
+  for (const Outline& outline : figure.outlines)
     for (const Vec3 p : outline) figure.box.grow(p);
   return figure;
 }
 
 bool is_in_plane(const FacetFigure& of, const FacetFigure& other) {
   if (dot(of.normal, other.normal) <= 0) return false;
-  return std::ranges::all_of(of.outlines, [&](const detail::Outline& outline) {
+  return std::ranges::all_of(of.outlines, [&](const Outline& outline) {
     return std::ranges::all_of(outline, [&](Vec3 p) {
       return std::abs(dot(other.normal, p) - other.offset_m) <= kSamePlane_m;
     });
@@ -210,10 +209,10 @@ bool is_in_plane(const FacetFigure& of, const FacetFigure& other) {
 
 /// Facets of a solid that look the same way and lie in one plane cover all of it.
 bool is_covered(const FacetFigure& figure, const std::vector<FacetFigure>& others) {
-  double left_m2 = detail::figure_area_m2(figure.outlines, figure.normal);
+  double left_m2 = figure_area_m2(figure.outlines, figure.normal);
   for (const FacetFigure& other : others) {
     if (!overlap(figure.box, other.box, kSamePlane_m) || !is_in_plane(figure, other)) continue;
-    left_m2 -= detail::shared_area_m2(figure.outlines, other.outlines, figure.normal);
+    left_m2 -= shared_area_m2(figure.outlines, other.outlines, figure.normal);
     if (left_m2 <= kUncovered_m2) return true;
   }
   return false;

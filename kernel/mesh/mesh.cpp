@@ -47,7 +47,7 @@ struct FaceList {
       if (stays_whole(source, polygon, faces))
         add(p, polygon.rings[0], polygon.normal);
       else
-        for (const auto& t : detail::triangulate(source.points, polygon.rings, polygon.normal))
+        for (const auto& t : triangulate(source.points, polygon.rings, polygon.normal))
           add(p, {t[0], t[1], t[2]}, polygon.normal);
       if (corners.size() == before) ++empty_polygons;
     }

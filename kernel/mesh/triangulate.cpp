@@ -12,7 +12,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::vector<std::array<int, 3>> triangulate_quickly(const std::vector<Vec3>& poi
   return triangulate(points, rings, normal);
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

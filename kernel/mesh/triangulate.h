@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Triangles that cover a planar polygon with holes, counter-clockwise about `normal`, in a fixed
 /// order. `rings` (the outer one first) index `points`; every vertex of a ring is one of a triangle
@@ -25,4 +25,4 @@ std::vector<std::array<int, 3>> triangulate_quickly(const std::vector<Vec3>& poi
                                                     const std::vector<std::vector<int>>& rings,
                                                     Vec3 normal);
 
-}  // namespace oriel::detail
+}  // namespace oriel

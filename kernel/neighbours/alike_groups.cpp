@@ -14,7 +14,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
 using detail::PlanArea;
 
 /// Walls across a gap that is closed run against each other to 10 degrees, as short edges of
@@ -28,7 +27,7 @@ constexpr double kRidgeLean = 0.1736;
 
 double shared_ground_m2(const PlanArea& strip, const std::vector<PlanArea>& ground) {
   double sum_m2 = 0;
-  for (const PlanArea& area : ground) sum_m2 += detail::shared_area_m2(strip, area, {0, 0, 1});
+  for (const PlanArea& area : ground) sum_m2 += shared_area_m2(strip, area, {0, 0, 1});
   return sum_m2;
 }
 
@@ -189,7 +188,7 @@ class GroupFinder {
 
   const NeighbourSearch& search_;
   const GroupingLimits& limits_;
-  detail::DisjointSets sets_;
+  DisjointSets sets_;
   /// By pair, in the frame of the first of it.
   std::map<std::pair<std::size_t, std::size_t>, std::vector<PlanArea>> strips_;
   AlikeGroups out_;

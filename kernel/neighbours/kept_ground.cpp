@@ -13,7 +13,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
 using detail::PlanArea;
 
 Box box_of_plan(std::span<const Outline> outlines) {
@@ -52,7 +51,7 @@ double KeptGround::under_m2(std::span<const Outline> figure, Vec3 origin_m) cons
     PlanArea moved = areas_[i];
     for (Outline& outline : moved)
       for (Vec3& p : outline) p = {p.x - origin_m.x, p.y - origin_m.y, 0};
-    sum_m2 += detail::shared_area_m2(figure, moved, {0, 0, 1});
+    sum_m2 += shared_area_m2(figure, moved, {0, 0, 1});
   }
   return sum_m2;
 }

@@ -27,11 +27,11 @@ class KeptGround {
 
   /// How much of it a figure of the plan, outlines as of add(), covers, m2: the figure's own frame
   /// has its origin at `origin_m`.
-  [[nodiscard]] double under_m2(std::span<const detail::Outline> figure, Vec3 origin_m) const;
+  [[nodiscard]] double under_m2(std::span<const Outline> figure, Vec3 origin_m) const;
 
  private:
   std::vector<detail::PlanArea> areas_;
-  std::optional<detail::BoxTree> tree_;
+  std::optional<BoxTree> tree_;
   Box box_;
   std::string sha256_;
 };

@@ -23,8 +23,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
-
 /// Buildings overlap if they share more ground: walls ten metres long that touch kContact_m into
 /// each other.
 constexpr double kOverlap_m2 = 0.5;
@@ -110,22 +108,21 @@ Issue about_building(Code code, const std::string& id, std::string sentence) {
 }  // namespace
 
 double Neighbourhood::covered_share(std::span<const Outline> figure, Vec3 normal) const {
-  const double all_m2 = std::abs(detail::figure_area_m2(figure, normal));
+  const double all_m2 = std::abs(figure_area_m2(figure, normal));
   if (!(all_m2 > 0)) return 0;
   double shared_m2 = 0;
   for (const NeighbourWall& wall : walls) {
     if (length(wall.normal + normal) > kPartyWallLean ||
         std::abs(dot(figure[0][0] - wall.outlines[0][0], normal)) > kContact_m)
       continue;
-    shared_m2 += detail::shared_area_m2(figure, wall.outlines, normal);
+    shared_m2 += shared_area_m2(figure, wall.outlines, normal);
   }
   return std::min(1.0, shared_m2 / all_m2);
 }
 
 NeighbourSearch::NeighbourSearch(ScratchSpace scratch)
     : shapes_(std::make_unique<detail::ShapeStore>(
-          scratch.held_bytes,
-          detail::scratch_folder(scratch.beside.empty() ? "-" : scratch.beside))) {}
+          scratch.held_bytes, scratch_folder(scratch.beside.empty() ? "-" : scratch.beside))) {}
 
 NeighbourSearch::~NeighbourSearch() = default;
 NeighbourSearch::NeighbourSearch(NeighbourSearch&&) noexcept = default;
@@ -205,7 +202,7 @@ void NeighbourSearch::finish() {
 }
 
 void NeighbourSearch::unite_touching() {
-  detail::DisjointSets sets(size());
+  DisjointSets sets(size());
   std::vector<char> does_touch(size(), 0);
   for (const std::size_t i : by_place_) {
     const ShapedBuilding own = shaped(i);
@@ -328,8 +325,7 @@ std::optional<Outlook> NeighbourSearch::outlook(const Neighbourhood& of, Vec3 po
   if (group == nullptr) return Outlook::street;
   const Vec3 in_group = from + of.origin_m - standing_[group->members.front()].origin_m;
   for (const Outline& yard : group->yards)
-    if (detail::contains(std::span(&yard, 1), {0, 0, 1}, {in_group.x, in_group.y, 0}))
-      return Outlook::yard;
+    if (contains(std::span(&yard, 1), {0, 0, 1}, {in_group.x, in_group.y, 0})) return Outlook::yard;
   const bool is_enclosed = std::ranges::all_of(kWays, [&](const std::array<double, 2>& way) {
     const auto [ahead, aside] = way;
     return meets_group(of, from, ahead * along + aside * Vec3{-along.y, along.x, 0});
@@ -368,7 +364,7 @@ bool NeighbourSearch::meets_group(const Neighbourhood& of, Vec3 from, Vec3 along
   };
   tree_->search(
       [&](const Box& box) {
-        return detail::comes_near(box, in_input, in_input + reach_m * along, kContact_m);
+        return comes_near(box, in_input, in_input + reach_m * along, kContact_m);
       },
       look_at);
   return is_of_group;

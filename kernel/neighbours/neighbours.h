@@ -22,9 +22,9 @@ class ShapeStore;
 /// A wall of another building against which a building stands, in the building's frame, moved into
 /// the plane of the building's own wall.
 struct NeighbourWall {
-  std::string building;                   ///< id of the other one
-  std::vector<detail::Outline> outlines;  ///< the outer one first, counter-clockwise about `normal`
-  Vec3 normal;                            ///< out of the other building
+  std::string building;           ///< id of the other one
+  std::vector<Outline> outlines;  ///< the outer one first, counter-clockwise about `normal`
+  Vec3 normal;                    ///< out of the other building
 };
 
 /// How a building touches another one.
@@ -59,7 +59,7 @@ struct Neighbourhood {
 
   /// The share of a plane figure (outlines counter-clockwise about `normal`) that lies against
   /// other buildings, 0 … 1.
-  [[nodiscard]] double covered_share(std::span<const detail::Outline> figure, Vec3 normal) const;
+  [[nodiscard]] double covered_share(std::span<const Outline> figure, Vec3 normal) const;
 };
 
 /// What the outlines of buildings may take in memory, and where the rest of them is.
@@ -78,7 +78,7 @@ struct ScratchSpace {
 /// Two buildings touch where walls of them, upright to half a degree and with opposite normals, are
 /// no more than kContact_m apart and share kContact_m2 or more; those that touch, directly or by
 /// others, are a group. Results do not depend on the order in which buildings are added. Searches
-/// take O(n log n) in all: boxes in a tree (detail::BoxTree). Of each building its id, box and
+/// take O(n log n) in all: boxes in a tree (BoxTree). Of each building its id, box and
 /// heights are in memory, some 400 bytes; outlines are as ScratchSpace says, which changes no
 /// result. A file that cannot be written or read again is an OutputError E601, thrown by any call.
 class NeighbourSearch {
@@ -132,7 +132,7 @@ class NeighbourSearch {
     std::vector<std::size_t> members;
     Box box;  ///< in the input's coordinates
     /// Holes of the ground that it covers, in the frame of its first member.
-    std::vector<detail::Outline> yards;
+    std::vector<Outline> yards;
   };
 
   [[nodiscard]] std::vector<std::size_t> drop_repeated();
@@ -155,8 +155,8 @@ class NeighbourSearch {
   std::map<std::string, std::size_t> repeated_;  ///< by hash, those whose id others have, too
   std::map<std::string, int> systems_;
   std::vector<std::size_t> by_place_;
-  std::optional<detail::BoxTree> tree_;  ///< in the input's coordinates, seen from above: z = 0
-  std::vector<int> group_of_;            ///< by building; -1: it touches none
+  std::optional<BoxTree> tree_;  ///< in the input's coordinates, seen from above: z = 0
+  std::vector<int> group_of_;    ///< by building; -1: it touches none
   std::vector<TouchingGroup> groups_;
   std::string sha256_;
   std::vector<Issue> issues_;

@@ -15,8 +15,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
-
 constexpr Vec3 kUpwards{0, 0, 1};
 /// What is smaller does not make a contact of kContact_m2 even with a few of its like.
 constexpr double kLeastWall_m2 = 0.05;
@@ -33,7 +31,7 @@ Box box_of_outline(const Outline& outline) {
 std::vector<Outline> flattened(std::vector<Outline> outlines) {
   for (Outline& outline : outlines)
     for (Vec3& p : outline) p.z = 0;
-  if (detail::signed_area(outlines[0], kUpwards) < 0)
+  if (signed_area(outlines[0], kUpwards) < 0)
     for (Outline& outline : outlines) std::ranges::reverse(outline);
   return outlines;
 }
@@ -121,7 +119,7 @@ bool take_ground(std::vector<GentlePolygon>& flats, StandingBuilding& out, Stand
 /// building itself before it, further than walls that touch are apart.
 bool looks_at_own_ground(const UprightWall& wall, const StandingShape& own) {
   const Outline& outline = wall.outlines[0];
-  if (detail::figure_area_m2(wall.outlines, wall.normal) > kLargestPane_m2) return false;
+  if (figure_area_m2(wall.outlines, wall.normal) > kLargestPane_m2) return false;
   Vec3 middle;
   for (const Vec3 p : outline) middle = middle + (1.0 / static_cast<double>(outline.size())) * p;
   const auto is_own = [&](Vec3 p) {
@@ -144,7 +142,7 @@ std::pair<StandingBuilding, StandingShape> standing_building(const Building& bui
   out.origin_m = building.frame.origin_m;
   std::vector<std::pair<std::vector<Outline>, Vec3>> polygons;
   for (const Polygon& polygon : building.polygons) {
-    auto outlines = detail::outlines_of(building, polygon);
+    auto outlines = outlines_of(building, polygon);
     if (outlines.empty() || outlines[0].size() < 3) continue;
     const Vec3 area = area_vector(outlines[0]);
     for (const Vec3 p : outlines[0]) out.box.grow(p);
@@ -158,7 +156,7 @@ std::pair<StandingBuilding, StandingShape> standing_building(const Building& bui
       if (length(area) >= kLeastWall_m2) shape.walls.push_back({std::move(outlines), normal, {}});
       continue;
     }
-    if (detail::looks_aside(normal)) continue;
+    if (looks_aside(normal)) continue;
     GentlePolygon flat;
     for (const Vec3 p : outlines[0]) flat.mean_m += p.z / static_cast<double>(outlines[0].size());
     flat.looks_up = normal.z > 0;
@@ -170,7 +168,7 @@ std::pair<StandingBuilding, StandingShape> standing_building(const Building& bui
     flat.high_m = box.max.z;
     flat.is_low = !flat.looks_up && box.max.z <= out.ground_m + kGroundOver_m;
     flat.outlines = flattened(std::move(outlines));
-    flat.area_m2 = std::max(0.0, detail::figure_area_m2(flat.outlines, kUpwards));
+    flat.area_m2 = std::max(0.0, figure_area_m2(flat.outlines, kUpwards));
     flats.push_back(std::move(flat));
   }
   for (UprightWall& wall : shape.walls) wall.box = box_of_outline(wall.outlines[0]);

@@ -14,8 +14,8 @@ namespace oriel {
 
 /// An upright polygon of a building, in the building's frame.
 struct UprightWall {
-  std::vector<detail::Outline> outlines;  ///< the outer one first
-  Vec3 normal;                            ///< out of the building, as its corners say
+  std::vector<Outline> outlines;  ///< the outer one first
+  Vec3 normal;                    ///< out of the building, as its corners say
   Box box;
 };
 
@@ -33,7 +33,7 @@ struct StandingShape {
   /// The ground that it covers, seen from above: polygons within half a metre of its lowest point
   /// that are not steep, or all that are not steep if these cover less than half of what the others
   /// do. z = 0, outer outlines counter-clockwise. Pieces may lie on each other in the latter case.
-  std::vector<std::vector<detail::Outline>> ground;
+  std::vector<std::vector<Outline>> ground;
 };
 
 /// What is known of a building at any time, its outlines apart.
@@ -64,6 +64,6 @@ struct ShapedBuilding {
 std::pair<StandingBuilding, StandingShape> standing_building(const Building& building);
 
 /// Ground in another frame, in which its own lies at `moved_m`; z = 0.
-std::vector<std::vector<detail::Outline>> moved_ground(const StandingShape& shape, Vec3 moved_m);
+std::vector<std::vector<Outline>> moved_ground(const StandingShape& shape, Vec3 moved_m);
 
 }  // namespace oriel

@@ -56,7 +56,7 @@ std::vector<Vec3> corner_noise(const std::vector<Vec3>& vertices, double noise_m
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
 
   // The first of a group comes before its others.
-  const detail::Numbers first = detail::group_near_points(sorted, kCorner_m * kMicrometresInMetre);
+  const Numbers first = group_near_points(sorted, kCorner_m * kMicrometresInMetre);
   std::vector<Vec3> offsets(sorted.size());
   for (std::size_t i = 0; i < sorted.size(); ++i)
     offsets[i] = at(first[i]) == i ? draw_offset(noise_m, kind, random) : offsets[at(first[i])];

@@ -260,11 +260,9 @@ namespace oriel {
 namespace {
 
 using detail::ShellMesh;
-using detail::Soup;
 
 bool has_room(const Building& building, const Tolerances& tolerances) {
-  const double limit =
-      static_cast<double>(exact::kMaxCoordinate) * detail::grid_for(tolerances.weld_m);
+  const double limit = static_cast<double>(exact::kMaxCoordinate) * grid_for(tolerances.weld_m);
   return std::ranges::all_of(building.vertices, [&](Vec3 p) {
     return std::abs(p.x) <= limit && std::abs(p.y) <= limit && std::abs(p.z) <= limit;
   });
@@ -362,7 +360,7 @@ class FacetMaker {
 std::optional<Solid> open_shell(const Building& building, const Tolerances& tolerances) {
   if (!has_room(building, tolerances)) return std::nullopt;
   std::vector<Issue> of_solidify;  // solidify has reported them
-  Soup soup = detail::weld(building, tolerances, of_solidify);
+  Soup soup = weld(building, tolerances, of_solidify);
   if (soup.polygons.empty()) return std::nullopt;
   const ShellMesh mesh = detail::build_open_mesh(soup, tolerances);
   Work work(kWorkBudget);

@@ -23,7 +23,6 @@ namespace oriel {
 namespace {
 
 using detail::ShellMesh;
-using detail::Soup;
 
 Issue error(const Building& building, Code code, std::string sentence) {
   return building_issue(Severity::error, code, building.id, std::move(sentence));
@@ -32,8 +31,7 @@ Issue error(const Building& building, Code code, std::string sentence) {
 /// Refuses what the exact arithmetic has no room for.
 void check_size(const Building& building, const Tolerances& tolerances,
                 std::vector<Issue>& issues) {
-  const double limit =
-      static_cast<double>(exact::kMaxCoordinate) * detail::grid_for(tolerances.weld_m);
+  const double limit = static_cast<double>(exact::kMaxCoordinate) * grid_for(tolerances.weld_m);
   const auto fits = [limit](double c) { return std::abs(c) <= limit; };
   if (std::ranges::all_of(building.vertices,
                           [&](Vec3 p) { return fits(p.x) && fits(p.y) && fits(p.z); }))
@@ -122,7 +120,7 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
 /// How many connected pieces the open edges make.
 int count_loops(std::span<const OpenEdge> edges) {
   std::map<std::tuple<double, double, double>, int> number;
-  detail::DisjointSets sets(0);
+  DisjointSets sets(0);
   const auto number_of = [&](Vec3 p) {
     const auto [entry, is_new] =
         number.try_emplace({p.x, p.y, p.z}, static_cast<int>(number.size()));
@@ -196,7 +194,7 @@ MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
                          const RepairOptions& repair, std::vector<Issue> why, Solidified& out,
                          Work& work) {
   std::vector<Issue> told_before;
-  const Soup soup = detail::weld(building, tolerances, told_before);
+  const Soup soup = weld(building, tolerances, told_before);
   detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair, work);
   if (auto filled = filled_instead(mended, soup, building, tolerances, repair, work)) {
     out.report = std::move(filled->report);
@@ -236,7 +234,7 @@ std::optional<MeshedSoup> uncrossed_shells(const Building& building, const Toler
   auto uncrossed = detail::uncross(soup, tolerances, work);
   if (!uncrossed) return std::nullopt;
   // Which shell a piece is of is seen only now.
-  for (detail::SoupPolygon& polygon : uncrossed->soup.polygons) polygon.shell = -1;
+  for (SoupPolygon& polygon : uncrossed->soup.polygons) polygon.shell = -1;
   MeshedSoup whole{std::move(uncrossed->soup), {}};
   std::vector<Issue> issues;
   whole.mesh = detail::build_shell_mesh(whole.soup, building.id, issues);
@@ -252,7 +250,7 @@ std::optional<MeshedSoup> uncrossed_shells(const Building& building, const Toler
 
 MeshedSoup shells_of(const Building& building, const Tolerances& tolerances,
                      const RepairOptions& repair, Solidified& out, Work& work) {
-  MeshedSoup shells{detail::weld(building, tolerances, out.issues), {}};
+  MeshedSoup shells{weld(building, tolerances, out.issues), {}};
   if (shells.soup.polygons.size() < 4) {
     out.issues.push_back(error(building, Code::E301,
                                fmt::format("{} cannot enclose a volume (val3dity 301)",
@@ -272,7 +270,7 @@ MeshedSoup closed_shells(const Building& building, const Tolerances& tolerances,
   const bool cuts_closed = repair.crossings == Crossings::cut_closed;
   if (cuts_closed) {
     std::vector<Issue> issues;
-    const Soup soup = detail::weld(building, tolerances, issues);
+    const Soup soup = weld(building, tolerances, issues);
     if (auto whole = uncrossed_shells(building, tolerances, soup, out, work)) {
       out.issues.insert(out.issues.end(), issues.begin(), issues.end());
       return std::move(*whole);

@@ -13,11 +13,11 @@ namespace oriel {
 namespace {
 
 /// More is supposed than there is.
-bool is_mostly_supposed(const detail::Soup& soup) {
+bool is_mostly_supposed(const Soup& soup) {
   double there = 0, supposed = 0;
   const auto shapes = detail::shapes_of(soup);
   for (int p = 0; p < soup.polygon_count(); ++p)
-    (soup.polygons[at(p)].source == detail::kNoSource ? supposed : there) += shapes[at(p)].area;
+    (soup.polygons[at(p)].source == kNoSource ? supposed : there) += shapes[at(p)].area;
   return supposed > there;
 }
 
@@ -27,7 +27,7 @@ std::optional<SupposedSolid> supposed_solid(const Building& building, const Tole
                                             std::int64_t budget) {
   Work work(budget);
   Solidified out;
-  const detail::Soup soup = detail::weld(building, tolerances, out.issues);
+  const Soup soup = weld(building, tolerances, out.issues);
   if (soup.polygons.empty()) return std::nullopt;
   auto filled = detail::fill_missing_faces(soup, building.id, tolerances, work);
   if (!filled || is_mostly_supposed(filled->soup)) return std::nullopt;

@@ -147,7 +147,7 @@ class Parter {
   PartedSolid take() {
     for (const FacetTriangle& triangle : triangles_)
       if (!has_twin(triangle)) add(triangle);
-    detail::arrange_planes_and_loops(solid_);
+    arrange_planes_and_loops(solid_);
     return {std::move(solid_), std::move(whole_of_)};
   }
 

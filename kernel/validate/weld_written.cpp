@@ -28,8 +28,7 @@ std::vector<int> near_vertices(const Building& written) {
   std::ranges::sort(sorted);
   const auto doubles = std::ranges::unique(sorted);
   sorted.erase(doubles.begin(), doubles.end());
-  const detail::Numbers first =
-      detail::group_near_points(sorted, ValidateOptions{}.snap_m * kPerMetre + 1);
+  const Numbers first = group_near_points(sorted, ValidateOptions{}.snap_m * kPerMetre + 1);
   std::vector<int> group;
   for (const MicrometrePoint& p : points)
     group.push_back(first[at(std::ranges::lower_bound(sorted, p) - sorted.begin())]);
@@ -98,7 +97,7 @@ std::optional<PartedSolid> weld_written(const Solid& solid, const Building& writ
     kept = {exact::to_metres(exact::round_to_grid(kept.point, solid.grid_m), solid.grid_m), false};
   }
   out.whole_of = weld_facets(out.solid, first);
-  detail::arrange_planes_and_loops(out.solid);
+  arrange_planes_and_loops(out.solid);
   return out;
 }
 

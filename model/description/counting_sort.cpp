@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace oriel::detail {
+namespace oriel {
 
 void count_to_first(Numbers& count) {
   int sum = 0;
@@ -29,4 +29,4 @@ Buckets sort_into_buckets(std::span<const int> keys, std::size_t bucket_count) {
   return out;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -7,7 +7,7 @@
 
 /// Sorting by small integers in linear time: what the kernel has to group is known by the numbers
 /// of its vertices, polygons or facets, so no comparisons are needed.
-namespace oriel::detail {
+namespace oriel {
 
 /// Items in buckets: bucket `k` is items[first[k]] … items[first[k + 1] - 1].
 struct Buckets {
@@ -55,4 +55,4 @@ Numbers sort_edges(std::size_t edge_count, std::size_t vertex_count, EndsOf ends
   return sorted;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -104,12 +104,12 @@ std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point) {
   const Vec3 local = point - building.frame.origin_m;
   std::optional<PolygonAt> nearest;
   for (std::size_t i = 0; i < building.polygons.size(); ++i) {
-    const auto outlines = detail::outlines_of(building, building.polygons[i]);
+    const auto outlines = outlines_of(building, building.polygons[i]);
     if (outlines.empty() || outlines[0].empty()) continue;
     const Vec3 normal = normalised(area_vector(outlines[0]));
     const double distance = std::abs(dot(local - outlines[0][0], normal));
     if (distance > kReach_m || (nearest && distance >= nearest->distance_m)) continue;
-    if (detail::contains(outlines, normal, local)) nearest = PolygonAt{i, distance};
+    if (contains(outlines, normal, local)) nearest = PolygonAt{i, distance};
   }
   return nearest;
 }

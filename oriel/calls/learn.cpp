@@ -135,7 +135,7 @@ Checked<std::vector<Sample>> join_samples(std::vector<Sample> features,
 std::vector<Issue> report_old_records(std::span<const std::string> records,
                                       std::span<const std::string> models) {
   std::vector<Issue> issues;
-  for (const std::string& model : models) const detail::Input is_there(model);
+  for (const std::string& model : models) const Input is_there(model);
   for (const std::string& path : records)
     for (const std::string& model : models) {
       auto sentence = newer_model(path, model);
@@ -150,7 +150,7 @@ std::vector<Issue> report_old_records(std::span<const std::string> records,
 }
 
 Checked<Objective::Costs> read_costs_file(const std::string& path) {
-  return read_costs(detail::Input(path).read_all(), path);
+  return read_costs(Input(path).read_all(), path);
 }
 
 }  // namespace oriel

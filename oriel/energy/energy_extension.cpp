@@ -16,10 +16,6 @@ namespace oriel {
 
 namespace {
 
-using detail::append_json;
-using detail::append_json_key;
-using detail::RawNode;
-
 /// O. Tufan, "Development and Testing of the CityJSON Energy Extension for Space Heating Demand
 /// Calculation", TU Delft 2022; its file says version 1.1.0, of which a CityJSON file states two
 /// numbers.
@@ -37,7 +33,7 @@ std::string as_json(std::string_view text) {
 
 std::string list_of(const std::vector<std::string>& ids) {
   std::string out;
-  detail::append_json_array(out, std::vector<std::string_view>(ids.begin(), ids.end()));
+  append_json_array(out, std::vector<std::string_view>(ids.begin(), ids.end()));
   return out;
 }
 
@@ -122,9 +118,9 @@ class ZoneWriter {
       append_json(text, *face.azimuth_deg);
     else
       text += "null";
-    detail::append_field(text, "energy-inclination", face.inclination_deg);
-    detail::append_field(text, "energy-area", area_m2);
-    if (has_openings) detail::append_field(text, "energy-windowRatio", window_m2 / area_m2);
+    append_field(text, "energy-inclination", face.inclination_deg);
+    append_field(text, "energy-area", area_m2);
+    if (has_openings) append_field(text, "energy-windowRatio", window_m2 / area_m2);
     text += R"(},"energy-delimits":)" + list_of({zone_});
     if (!openings.empty()) text += R"(,"energy-contains":)" + list_of(openings);
     objects_.emplace_back(id, text + "}");
@@ -138,7 +134,7 @@ class ZoneWriter {
 };
 
 bool has_type(const RawNode& object, std::string_view prefix) {
-  return detail::decoded(object.value_of("type")).starts_with(prefix);
+  return decoded(object.value_of("type")).starts_with(prefix);
 }
 
 /// Takes out what an earlier call made of some buildings.
@@ -156,7 +152,7 @@ void erase_earlier(RawNode& objects, const std::vector<BuildingEnergy>& of) {
 /// Among some children; their number if it is not there.
 std::size_t place_of_child(const RawNode& children, const std::string& id) {
   std::size_t i = 0;
-  while (i < children.size() && detail::decoded(children.value(i)) != id) ++i;
+  while (i < children.size() && decoded(children.value(i)) != id) ++i;
   return i;
 }
 
@@ -202,7 +198,7 @@ std::string with_energy_extension(const std::string& text, const std::vector<Bui
   if (start == std::string::npos) return text;
   const std::size_t end = text.rfind('}') + 1;
   RawNode root(std::string_view(text).substr(start, end - start));
-  if (detail::decoded(root.value_of("type")) == "CityJSON") {
+  if (decoded(root.value_of("type")) == "CityJSON") {
     const std::string_view there = root.value_of("extensions");
     RawNode extensions(RawNode::is_object(there) ? there : "{}");
     extensions.set(kName, std::string(kDeclaration));

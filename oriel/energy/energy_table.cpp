@@ -27,7 +27,7 @@ class EnergyRow {
   }
   void number(std::string name, std::optional<double> value) {
     names_.push_back(std::move(name));
-    cells_.push_back(value ? detail::shortest(*value) : std::string());
+    cells_.push_back(value ? shortest(*value) : std::string());
     is_text_.push_back(false);
   }
 
@@ -38,11 +38,11 @@ class EnergyRow {
   void append_object(std::string& out) const {
     out += '{';
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      detail::append_json_key(out, names_[i]);
+      append_json_key(out, names_[i]);
       if (cells_[i].empty())
         out += "null";
       else if (is_text_[i])
-        detail::append_json(out, std::string_view(cells_[i]));
+        append_json(out, std::string_view(cells_[i]));
       else
         out += cells_[i];
     }
@@ -242,20 +242,20 @@ std::string energy_rows(EnergyTable table, TableFormat format, const BuildingEne
 std::vector<std::optional<int>> stated_storeys(const Document& document) {
   std::vector<std::optional<int>> stated(document.buildings.size());
   if (!document.source) return stated;
-  const detail::CityJsonSource& source = *document.source;
+  const CityJsonSource& source = *document.source;
   const std::string_view text = source.text;
   const std::size_t start = text.find('{');
   if (start == std::string_view::npos) return stated;
-  const detail::RawNode root(text.substr(start, text.rfind('}') + 1 - start));
+  const RawNode root(text.substr(start, text.rfind('}') + 1 - start));
   const std::string_view objects_text = root.value_of("CityObjects");
-  if (!detail::RawNode::is_object(objects_text)) return stated;
-  const detail::RawNode objects(objects_text);
+  if (!RawNode::is_object(objects_text)) return stated;
+  const RawNode objects(objects_text);
   for (std::size_t i = 0; i < stated.size() && i < source.places.size(); ++i) {
     const std::string_view object = objects.value(source.places[i].object);
-    if (!detail::RawNode::is_object(object)) continue;
-    const std::string_view attributes = detail::RawNode(object).value_of("attributes");
-    if (!detail::RawNode::is_object(attributes)) continue;
-    const std::string value(detail::RawNode(attributes).value_of("storeysAboveGround"));
+    if (!RawNode::is_object(object)) continue;
+    const std::string_view attributes = RawNode(object).value_of("attributes");
+    if (!RawNode::is_object(attributes)) continue;
+    const std::string value(RawNode(attributes).value_of("storeysAboveGround"));
     int storeys = 0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), storeys);
     if (error == std::errc() && end == value.data() + value.size() && storeys >= 0)

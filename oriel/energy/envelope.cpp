@@ -88,7 +88,7 @@ bool has_valley(const Solid& solid, const std::vector<RoofFace>& faces) {
     const Vec3 b = solid.planes[solid.facets[other->second.index()].plane.index()].normal;
     const Vec3 along = solid.vertices[at(edge.second)].point - solid.vertices[at(edge.first)].point;
     // The interior of a facet is to the left of its edges.
-    if (dot(cross(a, b), along) < 0 && dot(a, b) < std::cos(kSameWay_deg * detail::kDegree_rad))
+    if (dot(cross(a, b), along) < 0 && dot(a, b) < std::cos(kSameWay_deg * kDegree_rad))
       return true;
   }
   return false;
@@ -126,8 +126,8 @@ RoofForm roof_form_of(const Solid& solid, const std::vector<FacetId>& roof) {
     const Facet& facet = solid.facets[id.index()];
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     RoofFace face{id, area_m2(solid.vertices, facet, normal)};
-    face.slope_deg = detail::inclination_deg(normal);
-    face.azimuth_deg = detail::azimuth_deg(normal);
+    face.slope_deg = inclination_deg(normal);
+    face.azimuth_deg = azimuth_deg(normal);
     all_m2 += face.area_m2;
     if (face.slope_deg <= kFlat_deg)
       flat_m2 += face.area_m2;
@@ -161,9 +161,9 @@ constexpr double kInPlane_cos = 0.9998;
 constexpr double kLeastStorey_m = 2.2;
 
 std::optional<double> azimuth_of(Vec3 normal) {
-  const double inclination = detail::inclination_deg(normal);
+  const double inclination = inclination_deg(normal);
   if (std::min(inclination, 180 - inclination) <= kLevel_deg) return std::nullopt;
-  return detail::azimuth_deg(normal);
+  return azimuth_deg(normal);
 }
 
 /// One without a name of its own is told by its slope.
@@ -173,8 +173,8 @@ EnvelopeKind kind_of(const std::string& type, Vec3 normal) {
   if (type == "GroundSurface") return EnvelopeKind::ground;
   if (type == "OuterCeilingSurface") return EnvelopeKind::ceiling;
   if (type == "OuterFloorSurface") return EnvelopeKind::floor;
-  if (detail::looks_up(normal)) return EnvelopeKind::roof;
-  return detail::looks_down(normal) ? EnvelopeKind::ceiling : EnvelopeKind::wall;
+  if (looks_up(normal)) return EnvelopeKind::roof;
+  return looks_down(normal) ? EnvelopeKind::ceiling : EnvelopeKind::wall;
 }
 
 /// Builds the envelope of one building that has a body.
@@ -213,7 +213,7 @@ class EnvelopeSurvey {
       const Feature& of = feature(id);
       if (of.planes.empty()) continue;
       const Vec3 normal = segmentation_.planes[of.planes.front().index()].normal;
-      if (detail::looks_aside(normal)) sills.push_back(of.box.min.z);
+      if (looks_aside(normal)) sills.push_back(of.box.min.z);
     }
     if (sills.empty()) return std::nullopt;
     std::ranges::sort(sills);
@@ -282,8 +282,8 @@ class EnvelopeSurvey {
       if (kind == EnvelopeKind::roof) roof.push_back(FacetId{i});
       const auto [place, is_new] = face_of.try_emplace({kind, facet.plane}, out.faces.size());
       if (is_new) {
-        out.faces.push_back({kind, plane.normal, plane.offset_m,
-                             detail::inclination_deg(plane.normal), azimuth_of(plane.normal)});
+        out.faces.push_back({kind, plane.normal, plane.offset_m, inclination_deg(plane.normal),
+                             azimuth_of(plane.normal)});
         facets_of_.emplace_back();
       }
       add_facet(facet, plane.normal, out.faces[place->second]);
@@ -298,7 +298,7 @@ class EnvelopeSurvey {
     if (!result_.surroundings) return;
     face.party_m2 = face.party_m2.value_or(0);
     if (face.kind != EnvelopeKind::wall) return;
-    const auto outlines = detail::outlines_of(body_.vertices, facet.loops);
+    const auto outlines = outlines_of(body_.vertices, facet.loops);
     *face.party_m2 += area * result_.surroundings->covered_share(outlines, normal);
   }
 
@@ -321,8 +321,8 @@ class EnvelopeSurvey {
       if (dot(face.normal, plane.normal) < kInPlane_cos) continue;
       const double off = std::abs(dot(face.normal, of.cap_point) - face.offset_m);
       const bool is_beside = std::ranges::none_of(facets_of_[i], [&](int f) {
-        const auto outlines = detail::outlines_of(body_.vertices, body_.facets[at(f)].loops);
-        return detail::contains(outlines, face.normal, of.cap_point);
+        const auto outlines = outlines_of(body_.vertices, body_.facets[at(f)].loops);
+        return contains(outlines, face.normal, of.cap_point);
       });
       if (std::tuple(is_beside, off) >= best) continue;
       best = {is_beside, off};

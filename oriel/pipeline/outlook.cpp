@@ -15,8 +15,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
-
 /// A wall of a model leans by 5 degrees at most.
 constexpr double kWallFrom_deg = 85, kWallTo_deg = 95;
 /// From this share on what lies against others is a party wall.
@@ -49,8 +47,8 @@ void set_outlook(Table& table, Row row, const WallOutlook& of, bool is_upright) 
 
 /// The rectangle that a feature takes up in the plane of its cap.
 Outline rectangle_of(const Segmentation& segmentation, const Feature& feature, const Plane& plane) {
-  const detail::ReachAxes axes = detail::axes_in(plane.normal);
-  detail::Reach reach;
+  const ReachAxes axes = axes_in(plane.normal);
+  Reach reach;
   for (const int v : feature.vertices) axes.grow(reach, segmentation.vertices[at(v)].point);
   const auto corner = [&](double u, double v) {
     return plane.offset_m * plane.normal + u * axes.u + v * axes.v;
@@ -61,7 +59,7 @@ Outline rectangle_of(const Segmentation& segmentation, const Feature& feature, c
 
 /// Outward, as the table says it.
 Vec3 normal_of(double inclination_deg, double azimuth_deg) {
-  const double i = inclination_deg * detail::kDegree_rad, a = azimuth_deg * detail::kDegree_rad;
+  const double i = inclination_deg * kDegree_rad, a = azimuth_deg * kDegree_rad;
   return {std::sin(i) * std::sin(a), std::sin(i) * std::cos(a), std::cos(i)};
 }
 
@@ -108,8 +106,7 @@ void describe_outlook_of_features(const Segmentation& segmentation, const LabelO
     const Plane& plane = segmentation.planes[feature.planes.front().index()];
     const Outline rectangle = rectangle_of(segmentation, feature, plane);
     WallOutlook of;
-    const bool is_upright =
-        std::abs(plane.normal.z) <= std::cos(kWallFrom_deg * detail::kDegree_rad);
+    const bool is_upright = std::abs(plane.normal.z) <= std::cos(kWallFrom_deg * kDegree_rad);
     if (is_upright)
       of.exposed = 1 - result.surroundings->covered_share(std::span(&rectangle, 1), plane.normal);
     of.outlook = options.neighbours->outlook(*result.surroundings,
@@ -128,12 +125,12 @@ void describe_outlook_of_surfaces(const Building& building, std::span<const int>
     const auto azimuth = table.number(at(row), SurfaceAttribute::azimuth);
     if (!inclination || !azimuth || *inclination < kWallFrom_deg || *inclination > kWallTo_deg)
       continue;
-    const auto outlines = detail::outlines_of(building, building.polygons[at(row)]);
+    const auto outlines = outlines_of(building, building.polygons[at(row)]);
     if (outlines.empty() || outlines[0].size() < 3) continue;
     const Vec3 normal = normal_of(*inclination, *azimuth);
     WallOutlook of;
     of.exposed = 1 - result.surroundings->covered_share(outlines, normal);
-    if (const auto middle = detail::interior_point(outlines, normal))
+    if (const auto middle = interior_point(outlines, normal))
       of.outlook = options.neighbours->outlook(*result.surroundings, *middle, normal);
     set_outlook<SurfaceTable, std::size_t, SurfaceAttribute>(table, at(row), of, true);
   }

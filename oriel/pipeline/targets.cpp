@@ -43,8 +43,6 @@ Invariants with_party_walls(Invariants invariants, const Document& document,
 
 namespace {
 
-using detail::Outline;
-
 Box box_around(const Building& building) {
   Box box;
   for (const Polygon& polygon : building.polygons)

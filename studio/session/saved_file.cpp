@@ -27,7 +27,7 @@ class FolderLock {
     std::error_code problem;
     const fs::path folder =
         fs::weakly_canonical(fs::absolute(path, problem), problem).parent_path();
-    descriptor_ = detail::open_locked(folder.string(), O_RDONLY | O_DIRECTORY);
+    descriptor_ = open_locked(folder.string(), O_RDONLY | O_DIRECTORY);
     if (descriptor_ < 0 && errno == EWOULDBLOCK)
       throw RefusedRequest(409, fmt::format("another program is saving beside '{}'", path));
   }

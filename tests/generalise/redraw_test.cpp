@@ -81,9 +81,9 @@ bool is_sill(const Solid& solid, const Facet& facet) {
   const Vec3 normal = solid.planes[facet.plane.index()].normal;
   double area_m2 = 0, longest_m = 0;
   for (const Loop& loop : facet.loops) {
-    detail::Outline outline;
+    Outline outline;
     for (const int v : loop) outline.push_back(solid.vertices[static_cast<std::size_t>(v)].point);
-    area_m2 += detail::signed_area(outline, normal);
+    area_m2 += signed_area(outline, normal);
     for (std::size_t i = 0; i < outline.size(); ++i)
       longest_m = std::max(longest_m, length(outline[(i + 1) % outline.size()] - outline[i]));
   }

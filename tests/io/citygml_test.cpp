@@ -538,8 +538,8 @@ TEST_SUITE("io") {
     const TemporaryFolder folder;
     const std::string text = CityGmlFile{"2.0", members}.text();
     REQUIRE(text.size() > 4'000'000);
-    detail::Input input(folder.write("a.gml", text));
-    const detail::TextName name{"a.gml", 0};
+    Input input(folder.write("a.gml", text));
+    const TextName name{"a.gml", 0};
     detail::CityGmlStream stream(input, name);
     std::size_t count = 0;
     while (const auto member = stream.next()) {

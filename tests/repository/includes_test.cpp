@@ -94,6 +94,13 @@ bool is_downward(const std::string& file, const std::string& header) {
   return from == to || kBelow.at(from).contains(to);
 }
 
+/// The room that alone may include a header of the namespace detail: in the kernel each folder is
+/// one.
+std::string home_of(const std::string& path) {
+  const bool is_in_kernel = path.starts_with("kernel/");
+  return path.substr(0, path.find('/', is_in_kernel ? std::string_view("kernel/").size() : 0));
+}
+
 /// What a file includes, between quotes or angles.
 std::set<std::string> includes_of(const fs::path& path) {
   std::set<std::string> included;
@@ -120,6 +127,14 @@ std::map<std::string, std::string> included_by(const fs::path& folder) {
       if (is_ours(header)) included.emplace(header, entry.path().string());
   }
   return included;
+}
+
+/// True if a header's names are those of one room.
+bool is_detail(const std::string& header) {
+  std::ifstream file(fs::path(ORIEL_SOURCE_DIR) / header);
+  for (std::string line; std::getline(file, line);)
+    if (line == "namespace oriel::detail {") return true;
+  return false;
 }
 
 /// The front door is what oriel/oriel.h gives, and nothing else of its folders.
@@ -157,6 +172,25 @@ TEST_SUITE("repository") {
           if (is_ours(header)) CHECK_MESSAGE(is_downward(file, header), file, " includes ", header);
       }
     CHECK(looked_at > 900);
+  }
+
+  TEST_CASE("what is detail is included in its own room only") {
+    const fs::path sources(ORIEL_SOURCE_DIR);
+    CHECK(home_of("kernel/segment/cuts/patch.h") == "kernel/segment");
+    CHECK(home_of("io/files/input.h") == "io");
+    std::set<std::string> details;
+    for (const auto& [room, below] : kBelow)
+      for (const auto& [header, file] : included_by(sources / room))
+        if (is_detail(header)) details.insert(header);
+    CHECK(details.size() > 100);
+    for (const auto& [room, below] : kBelow)
+      for (const auto& entry : fs::recursive_directory_iterator(sources / room)) {
+        if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+        const std::string file = fs::relative(entry.path(), sources).string();
+        for (const std::string& header : includes_of(entry.path()))
+          CHECK_MESSAGE((!details.contains(header) || home_of(header) == home_of(file)), file,
+                        " includes ", header);
+      }
   }
 
   TEST_CASE("the command calls the front door and no stage") {

@@ -34,7 +34,7 @@ class Surface {
         p.y > box_.max.y || p.z > box_.max.z)
       return false;
     double winding = 0;
-    for (const Piece& piece : pieces_) winding += detail::winding_part(piece.outlines, p);
+    for (const Piece& piece : pieces_) winding += winding_part(piece.outlines, p);
     return winding > 0.5;
   }
 
@@ -54,7 +54,7 @@ class Surface {
     const std::size_t step =
         std::max<std::size_t>(1, 2 * pieces_.size() / static_cast<std::size_t>(count));
     for (std::size_t f = 0; f < pieces_.size(); f += step)
-      if (const auto p = detail::interior_point(pieces_[f].outlines, pieces_[f].normal)) {
+      if (const auto p = interior_point(pieces_[f].outlines, pieces_[f].normal)) {
         points.push_back(*p + near_m * pieces_[f].normal);
         points.push_back(*p - near_m * pieces_[f].normal);
       }
@@ -69,7 +69,7 @@ class Surface {
  private:
   struct Piece {
     Vec3 normal;
-    std::vector<detail::Outline> outlines;
+    std::vector<Outline> outlines;
   };
   std::vector<Piece> pieces_;
   Box box_;

@@ -484,8 +484,7 @@ std::string citygml_text(std::string_view text, const Document& document, Format
   if (text.empty()) return {};
   const auto version =
       format == Format::citygml3 ? detail::GmlVersion::three : detail::GmlVersion::two;
-  const detail::Transform transform =
-      document.source ? document.source->transform : detail::Transform{};
+  const Transform transform = document.source ? document.source->transform : Transform{};
   detail::CityRecord record = detail::city_record(text, transform);
   if (closes_installations)
     for (Issue& issue : detail::close_installations(record)) issues.push_back(std::move(issue));

@@ -21,10 +21,6 @@ namespace oriel {
 
 namespace {
 
-using detail::append_json;
-using detail::decoded;
-using detail::RawNode;
-
 /// The root object of `text`, which is JSON: only white space stands around it.
 std::string_view root_of(std::string_view text) {
   const std::size_t start = text.find('{');
@@ -88,7 +84,7 @@ bool remove_ids(RawNode& node, std::string_view key, const std::unordered_set<st
   return removed > 0;
 }
 
-std::vector<std::string_view> arrays_of(const detail::CityJsonSource& source) {
+std::vector<std::string_view> arrays_of(const CityJsonSource& source) {
   std::vector<std::string_view> arrays;
   for (const auto [begin, end] : source.arrays)
     arrays.push_back(std::string_view(source.text).substr(begin, end - begin));
@@ -97,7 +93,7 @@ std::vector<std::string_view> arrays_of(const detail::CityJsonSource& source) {
 
 class CityJsonWriter {
  public:
-  CityJsonWriter(const detail::CityJsonSource& source, const Document& document,
+  CityJsonWriter(const CityJsonSource& source, const Document& document,
                  const WriteOptions& options)
       : existing_(options.existing),
         gone_(options.gone.begin(), options.gone.end()),
@@ -156,11 +152,11 @@ class CityJsonWriter {
 
   void relabel(const LabelledBuilding& labelled) {
     const std::size_t index = building_index(labelled.building);
-    const detail::GeometryPlace place = source_.places[index];
+    const GeometryPlace place = source_.places[index];
     if (emptied_.contains(labelled.building)) return empty(place, labelled);
     RawNode object(objects_.value(place.object), arrays_);
     RawNode geometries(object.value_of("geometry"), arrays_);
-    const bool is_emptied = place.geometry == detail::kNoGeometry;
+    const bool is_emptied = place.geometry == kNoGeometry;
     const std::size_t number = is_emptied ? put_back(geometries, document_.buildings[index].lod)
                                           : make_room(geometries, place, labelled);
     RawNode geometry(geometries.value(number), arrays_);
@@ -197,9 +193,9 @@ class CityJsonWriter {
       put_object(labelled.installations[i].id, std::move(installations[i]));
   }
 
-  void empty(detail::GeometryPlace place, const LabelledBuilding& labelled) {
+  void empty(GeometryPlace place, const LabelledBuilding& labelled) {
     RawNode object(objects_.value(place.object), arrays_);
-    if (place.geometry != detail::kNoGeometry) {
+    if (place.geometry != kNoGeometry) {
       RawNode geometries(object.value_of("geometry"), arrays_);
       geometries.erase(place.geometry);
       object.set("geometry", std::move(geometries));
@@ -220,7 +216,7 @@ class CityJsonWriter {
 
   /// Which element of "geometry" a labelled building is written to. Where it is redrawn, or gets a
   /// level of detail, other geometries of that level leave, so that an object never has two.
-  std::size_t make_room(RawNode& geometries, detail::GeometryPlace place,
+  std::size_t make_room(RawNode& geometries, GeometryPlace place,
                         const LabelledBuilding& labelled) {
     std::size_t number = place.geometry;
     const bool is_redrawn = labelled.geometry && !labelled.keeps_semantics;
@@ -268,7 +264,7 @@ class CityJsonWriter {
             is_last ? of.polygons.size() : of.installations[k + 1].first_polygon};
   }
 
-  [[nodiscard]] std::span<const detail::GeometryPlace> joined_to(std::size_t building) const {
+  [[nodiscard]] std::span<const GeometryPlace> joined_to(std::size_t building) const {
     if (building >= source_.joined.size()) return {};
     return source_.joined[building];
   }
@@ -388,10 +384,10 @@ class CityJsonWriter {
     text += R"({"type":"BuildingInstallation","attributes":{)";
     for (const auto& [key, value] : installation.attributes) {
       if (key == "oriel_geometry") continue;
-      detail::append_json_key(text, key);
+      append_json_key(text, key);
       std::visit([&](const auto& known) { append_json(text, known); }, value);
     }
-    detail::append_json_key(text, "oriel_geometry");
+    append_json_key(text, "oriel_geometry");
     append_json(text, std::string_view("shared"));
     text += R"(},"parents":[)";
     append_json(text, std::string_view(labelled.building));
@@ -531,9 +527,9 @@ class CityJsonWriter {
     if (digits_ == 0) return;
     const Vec3 scale = source_.transform.scale;
     std::string text;
-    detail::append_json_array(text, std::array{detail::scaled_down(scale.x, digits_),
-                                               detail::scaled_down(scale.y, digits_),
-                                               detail::scaled_down(scale.z, digits_)});
+    append_json_array(text, std::array{detail::scaled_down(scale.x, digits_),
+                                       detail::scaled_down(scale.y, digits_),
+                                       detail::scaled_down(scale.z, digits_)});
     RawNode transform(root_.value_of("transform"));
     transform.set("scale", std::move(text));
     root_.set("transform", transform.text());
@@ -546,7 +542,7 @@ class CityJsonWriter {
   /// Installations of solids that were replaced.
   std::unordered_set<std::string> outdated_;
   int least_digits_ = 0;
-  const detail::CityJsonSource& source_;
+  const CityJsonSource& source_;
   const Document& document_;
   /// Slices of the source's text that are long, for RawNode.
   std::vector<std::string_view> arrays_;
@@ -572,7 +568,7 @@ std::string write_cityjson(const Document& document, const std::vector<LabelledB
   if (!document.source && document.format == Format::citygml) return {};
   if (document.source)
     return CityJsonWriter(*document.source, document, options).write(labelled, options.removed);
-  const detail::CityJsonSource fresh = detail::fresh_cityjson(document.buildings);
+  const CityJsonSource fresh = detail::fresh_cityjson(document.buildings);
   return CityJsonWriter(fresh, document, options).write(labelled, options.removed);
 }
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <utf8.h>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -34,7 +34,7 @@ bool are_plain(const char* bytes) {
 }
 
 /// True if nothing has to be done to a text but to quote it. May be false nevertheless.
-bool is_plain(std::string_view text) {
+bool is_free_of_escapes(std::string_view text) {
   if (text.size() < 8)
     return std::ranges::all_of(
         text, [](char c) { return !is_escaped(c) && static_cast<unsigned char>(c) < 0x80U; });
@@ -56,7 +56,7 @@ std::string repaired(std::string_view text) {
 }  // namespace
 
 void append_json(std::string& out, std::string_view text) {
-  if (is_plain(text)) {
+  if (is_free_of_escapes(text)) {
     const std::size_t start = out.size() + 1;
     out.append(text.size() + 2, '"');
     text.copy(out.data() + start, text.size());
@@ -102,13 +102,13 @@ std::string shortest(double number) {
   return text;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel
 
 namespace oriel {
 
 std::string json_string(std::string_view text) {
   std::string quoted;
-  detail::append_json(quoted, text);
+  append_json(quoted, text);
   return quoted;
 }
 

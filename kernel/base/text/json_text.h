@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// Append a JSON value to `out`. Strings are quoted and escaped, what is not UTF-8 in them becomes
 /// U+FFFD; numbers have the fewest digits that read back to the same double, and what is not finite
@@ -76,7 +76,7 @@ void append_objects(std::string& out, std::string_view key, const Values& values
   });
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel
 
 namespace oriel {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// An allocator for vectors whose owner sets every element: resize() leaves new elements unset
 /// instead of writing zeros that nobody reads.
@@ -28,4 +28,4 @@ struct UnsetAllocator : std::allocator<T> {
 /// A list of indices. resize() and the constructor of a size leave them unset.
 using Numbers = std::vector<int, UnsetAllocator<int>>;
 
-}  // namespace oriel::detail
+}  // namespace oriel

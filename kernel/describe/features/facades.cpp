@@ -40,7 +40,7 @@ std::optional<Facades::Wall> Facades::wall_of(CellFacet facet) const {
   const double outward = cell.sign;
   const Plane& plane = segmentation_.planes[cell.facets[at(facet.facet)].plane.index()];
   if (std::abs(plane.normal.z) > kSteepNormal) return std::nullopt;
-  const auto outline = outlines_of(segmentation_, facet).front();
+  const auto outline = facet_outlines(segmentation_, facet).front();
   const Vec3 across = cross(Vec3{0, 0, 1}, outward * plane.normal);
   return Wall{facet, outward * plane.normal, outward * plane.offset_m,
               extent_along(outline, (1 / length(across)) * across),

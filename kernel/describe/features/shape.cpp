@@ -148,8 +148,8 @@ std::vector<Vec3> points_of(const Segmentation& segmentation, const Cell& cell) 
   return points;
 }
 
-std::vector<std::vector<Vec3>> outlines_of(const Segmentation& segmentation,
-                                           const CellFacet& facet) {
+std::vector<std::vector<Vec3>> facet_outlines(const Segmentation& segmentation,
+                                              const CellFacet& facet) {
   return outlines_of(segmentation.vertices,
                      segmentation.cells[facet.cell.index()].facets[at(facet.facet)].loops);
 }

@@ -39,7 +39,7 @@ std::vector<Vec3> points_of(const Segmentation& segmentation, const Feature& fea
 std::vector<Vec3> points_of(const Segmentation& segmentation, const Cell& cell);
 
 /// A facet of a cell as outlines.
-std::vector<std::vector<Vec3>> outlines_of(const Segmentation& segmentation,
-                                           const CellFacet& facet);
+std::vector<std::vector<Vec3>> facet_outlines(const Segmentation& segmentation,
+                                              const CellFacet& facet);
 
 }  // namespace oriel::detail

@@ -100,7 +100,7 @@ void Site::find_terrain() {
 }
 
 Site::GroundFacet Site::ground_facet(CellFacet facet, const Plane& plane, CellId cell) const {
-  GroundFacet ground{outlines_of(segmentation_, facet), {}, plane, cell};
+  GroundFacet ground{facet_outlines(segmentation_, facet), {}, plane, cell};
   for (const Vec3& p : ground.outlines[0]) ground.box.grow(p);
   return ground;
 }
@@ -125,7 +125,7 @@ Foot Site::ground_at(Vec3 point, const std::optional<CellFacet>& wall) const {
   if (const auto ground = lowest_at(point, grounds_)) return *ground;
   if (wall) {
     Extent height;
-    for (const auto& outline : outlines_of(segmentation_, *wall))
+    for (const auto& outline : facet_outlines(segmentation_, *wall))
       height.low = std::min(height.low, extent_along(outline, {0, 0, 1}).low);
     return {height.low, "wall", wall->cell};
   }

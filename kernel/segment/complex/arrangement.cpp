@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -137,4 +137,4 @@ std::vector<std::vector<int>> Arrangement::labels() const {
   return labels;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// What edges of one plane, none of which cross, divide it into. Half-edge 2e runs from a to b of
 /// edge e, 2e + 1 back; each has a region to its left. Region 0 is the unbounded one.
@@ -75,4 +75,4 @@ std::vector<std::size_t> border_from(const Arrangement& plan, std::size_t start,
   return border;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -15,9 +15,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Arrangement;
-using detail::Chord;
-
 /// As in cell_complex(): points nearer than this part of weld_m are one.
 constexpr double kBodyReach = 0.25;
 
@@ -59,10 +56,10 @@ struct SheetPiece {
   int count = 0;
 };
 
-std::vector<SheetPiece> sheet_pieces_of(std::vector<Chord> chords, Vec3 normal,
-                                        detail::VertexPool& pool, Work& work) {
-  const detail::PlaneAxes axes(normal);
-  const auto edges = detail::refine(std::move(chords), axes, pool, work);
+std::vector<SheetPiece> sheet_pieces_of(std::vector<Chord> chords, Vec3 normal, VertexPool& pool,
+                                        Work& work) {
+  const PlaneAxes axes(normal);
+  const auto edges = refine(std::move(chords), axes, pool, work);
   const Arrangement arrangement(edges, axes, pool);
   const auto windings = arrangement.windings();
   std::vector<SheetPiece> pieces(arrangement.region_count());
@@ -149,7 +146,7 @@ class BodySummer {
 
   std::vector<Plane> planes_;
   std::vector<int> signs_;
-  detail::VertexPool pool_;
+  VertexPool pool_;
   std::vector<PlaneId> sheets_;
   std::vector<std::vector<Facet>> facets_;  ///< by body
   std::vector<Face> faces_;

@@ -18,8 +18,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Chord;
-
 /// Points nearer than this part of weld_m are one.
 constexpr double kReach = 0.25;
 
@@ -127,7 +125,7 @@ class ComplexBuilder {
   }
 
   const Segmentation& segmentation_;
-  detail::VertexPool pool_;
+  VertexPool pool_;
   std::vector<PlaneId> sheet_of_;
   std::vector<std::vector<Facet>> facets_of_;  ///< by cell
   detail::Owners owners_;

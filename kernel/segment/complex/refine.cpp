@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -210,4 +210,4 @@ std::vector<PlanarEdge> refine(std::vector<Chord> chords, const PlaneAxes& axes,
   }
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

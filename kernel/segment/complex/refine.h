@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// A directed piece of an outline in one plane. To its left, seen from the plane's front, `label`
 /// begins to hold `count` times more.
@@ -68,4 +68,4 @@ struct PlanarEdge {
 std::vector<PlanarEdge> refine(std::vector<Chord> chords, const PlaneAxes& axes, VertexPool& pool,
                                Work& work);
 
-}  // namespace oriel::detail
+}  // namespace oriel

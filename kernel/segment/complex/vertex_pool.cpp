@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -61,4 +61,4 @@ int VertexPool::add(Vec3 point) {
   return v;
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

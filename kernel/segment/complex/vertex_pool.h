@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// The vertices of a cell complex. Points nearer than `reach_m` are one vertex, so that what
 /// differs by rounding is the same.
@@ -53,4 +53,4 @@ class VertexPool {
   std::unordered_map<Bucket, std::vector<int>, BucketHash> buckets_;
 };
 
-}  // namespace oriel::detail
+}  // namespace oriel

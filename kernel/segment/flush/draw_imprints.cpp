@@ -363,8 +363,6 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
-
 auto key_of(const Plane& plane) { return std::pair(plane.coefficients, plane.offset); }
 
 class ImprintDrawer {
@@ -408,10 +406,9 @@ class ImprintDrawer {
     for (const FacetId f : candidates) {
       if (key_of(splitter_.solid().planes[facets()[f.index()].plane.index()]) != key_of(plane))
         continue;
-      const auto outlines =
-          detail::outlines_of(splitter_.solid().vertices, facets()[f.index()].loops);
+      const auto outlines = outlines_of(splitter_.solid().vertices, facets()[f.index()].loops);
       // The middle may lie in the recess that a sash makes: then the outer loop decides.
-      if (detail::contains({outlines.data(), 1}, plane.normal, imprint.cap_point) &&
+      if (contains({outlines.data(), 1}, plane.normal, imprint.cap_point) &&
           has_polygon_of(imprint, facets()[f.index()]))
         return f;
     }

@@ -17,8 +17,6 @@ namespace oriel {
 namespace {
 
 using detail::ContainedPolygons;
-using detail::Outline;
-using detail::Reach;
 
 /// A feature of the tree whose largest cap lies in the plane of a subdivision.
 struct CapInPlane {
@@ -79,7 +77,7 @@ class ImprintWriter {
         if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
           cap.push_back(p);
       }
-      caps_on_[f.planes.front()].push_back({i, detail::axes_in(plane.normal).reach_of(cap)});
+      caps_on_[f.planes.front()].push_back({i, axes_in(plane.normal).reach_of(cap)});
     }
     for (auto& [plane, caps] : caps_on_)
       std::ranges::stable_sort(caps, {}, [](const CapInPlane& r) { return r.cap.u0; });
@@ -97,14 +95,14 @@ class ImprintWriter {
   /// The insets of one subdivision, the largest first.
   void write_subdivision(std::size_t first, std::size_t past) {
     const PlaneId plane = facet_of(contained_[first]).plane;
-    const detail::ReachAxes axes = detail::axes_in(solid_.planes[plane.index()].normal);
+    const ReachAxes axes = axes_in(solid_.planes[plane.index()].normal);
     for (std::size_t i = first; i < past && !work_.is_used_up(); ++i) {
       ContainedPolygons& contained = contained_[i];
       const auto home = home_of(contained);
       if (!home) continue;
       if (!contained.whole.empty() && fills_whole(contained, plane, axes)) {
         contained.outline = std::move(contained.whole);
-        contained.area_m2 = detail::signed_area(contained.outline, normal_of(plane));
+        contained.area_m2 = signed_area(contained.outline, normal_of(plane));
       }
       if (contained.outline.empty()) continue;
       const Reach reach = axes.reach_of(contained.outline);
@@ -154,7 +152,7 @@ class ImprintWriter {
       work_.add(1);
       if (!reach.holds(r->cap, slack)) continue;
       work_.add(std::ssize(outline));
-      if (detail::contains({{outline}}, normal_of(plane), feature(r->id).cap_point))
+      if (contains({{outline}}, normal_of(plane), feature(r->id).cap_point))
         within.push_back(r->id);
     }
     std::ranges::sort(within);
@@ -169,7 +167,7 @@ class ImprintWriter {
 
   /// Polygons and recesses together are what the host leaves free.
   [[nodiscard]] bool fills_whole(const ContainedPolygons& contained, PlaneId plane,
-                                 const detail::ReachAxes& axes) {
+                                 const ReachAxes& axes) {
     double filled_m2 = 0;
     for (const detail::InputPolygonId p : contained.polygons)
       filled_m2 += subdivisions_.polygons[p].area_m2;
@@ -179,7 +177,7 @@ class ImprintWriter {
       filled_m2 += feature(id).new_area_m2;
     }
     constexpr double kFilled = 0.98;  // noise, and what a cut leaves at the rim
-    return filled_m2 >= kFilled * detail::signed_area(contained.whole, normal_of(plane));
+    return filled_m2 >= kFilled * signed_area(contained.whole, normal_of(plane));
   }
 
   /// How far the input's points and those that were snapped to planes may be apart.
@@ -189,7 +187,7 @@ class ImprintWriter {
 
   /// True if the outline is that of a recess: then the recess has the polygons.
   bool absorb(const ContainedPolygons& contained, const std::vector<FeatureId>& within,
-              const Reach& reach, const detail::ReachAxes& axes) {
+              const Reach& reach, const ReachAxes& axes) {
     for (const FeatureId id : within) {
       Feature& recess = feature(id);
       if (recess.sense != Sense::hole && !recess.is_uncut) continue;
@@ -228,8 +226,8 @@ class ImprintWriter {
     f.host_facet = home;
     f.new_area_m2 = contained.area_m2;
     f.planes = {plane};
-    f.cap_point = detail::interior_point({{contained.outline}}, normal_of(plane))
-                      .value_or(contained.outline[0]);
+    f.cap_point =
+        interior_point({{contained.outline}}, normal_of(plane)).value_or(contained.outline[0]);
     f.is_natural = true;
     for (const detail::InputPolygonId p : contained.polygons) {
       f.source_polygons.push_back(subdivisions_.polygons[p].source);

@@ -148,12 +148,11 @@ class FeatureRemover {
   /// A facet of a cell is part of the solid's boundary that looks to `side`.
   [[nodiscard]] bool is_on_surface(const Facet& facet, PlaneSide side) const {
     const Vec3 normal = world_.planes.normal(side);
-    const auto shape = detail::outlines_of(segmentation_.vertices, facet.loops);
-    const auto point = detail::interior_point(shape, normal);
+    const auto shape = outlines_of(segmentation_.vertices, facet.loops);
+    const auto point = interior_point(shape, normal);
     return point && std::ranges::any_of(solid_.facets, [&](const Facet& of_solid) {
              if (world_.planes.side_of(of_solid.plane) != side) return false;
-             return detail::contains(detail::outlines_of(solid_.vertices, of_solid.loops), normal,
-                                     *point);
+             return contains(outlines_of(solid_.vertices, of_solid.loops), normal, *point);
            });
   }
 
@@ -258,13 +257,13 @@ class FeatureRemover {
           1e-6;  // tolerance of doubles: the point was made on the plane of one of the caps
       if (std::abs(dot(normal, point) - world_.planes.offset_m(cap.side)) > kOnPlane_m)
         return false;
-      std::vector<detail::Outline> shape;
+      std::vector<Outline> shape;
       for (const detail::CapLoop& loop : cap.loops) {
         shape.emplace_back();
         for (const detail::CapEdge& edge : loop.edges)
           shape.back().push_back(world_.points.at(edge.from));
       }
-      return detail::contains(shape, normal, point);
+      return contains(shape, normal, point);
     });
   }
 
@@ -405,7 +404,7 @@ class FeatureRemover {
   [[nodiscard]] static bool is_inside(const Boundary& body, Vec3 point) {
     double winding = 0;
     for (const detail::BodyFacetId facet : body.living_facets())
-      winding += detail::winding_part(body.outlines(facet), point);
+      winding += winding_part(body.outlines(facet), point);
     return winding > 0.5;
   }
 
@@ -426,7 +425,7 @@ class FeatureRemover {
     std::set<int> gone;
     for (const FeatureId id : out_.removed)
       gone.insert(feature(id).source_polygons.begin(), feature(id).source_polygons.end());
-    return detail::solid_of(bodies_, solid_, gone);
+    return solid_of(bodies_, solid_, gone);
   }
 
   const Solid& solid_;

@@ -20,18 +20,15 @@ namespace oriel {
 
 namespace {
 
-using detail::Outline;
 using detail::PlacedPolygon;
 using detail::PolygonGrid;
-using detail::Reach;
 using detail::Ring;
 
 /// What lies in a ring, before and behind its facet.
 struct RingContent {
-  std::vector<int> polygons;  ///< PolygonGrid::polygons, ascending
-  double parallel_m2 = 0;     ///< of those that look along the facet's normal or against it
-  std::optional<double>
-      level_m;  ///< detail::visible_level of what is parallel, along the facet's normal
+  std::vector<int> polygons;      ///< PolygonGrid::polygons, ascending
+  double parallel_m2 = 0;         ///< of those that look along the facet's normal or against it
+  std::optional<double> level_m;  ///< visible_level of what is parallel, along the facet's normal
 };
 
 /// What floats in an opening is no further from the rest than an old wall is thick; nothing that
@@ -52,7 +49,7 @@ class ContentFinder {
         facet_(solid.facets[ring.facet.index()]),
         plane_(solid.planes[facet_.plane.index()]),
         grid_(grid),
-        axes_(detail::axes_in(plane_.normal)),
+        axes_(axes_in(plane_.normal)),
         reach_(axes_.reach_of(ring.outline)),
         is_rectangle_(ring.area_m2 >= detail::kRectangle * reach_.area()) {}
 
@@ -61,7 +58,7 @@ class ContentFinder {
       if (is_content(grid_.polygons()[at(p)])) place(p);
     take_outwards();
     take_inwards();
-    out_.level_m = detail::visible_level(parallel_, ring_.area_m2);
+    out_.level_m = visible_level(parallel_, ring_.area_m2);
     std::ranges::sort(out_.polygons);
     return std::move(out_);
   }
@@ -101,9 +98,9 @@ class ContentFinder {
     const double level = dot(outline[0], plane_.normal);
     return std::ranges::all_of(polygon.outline(), [&](Vec3 p) {
       const Vec3 q = p + (level - dot(p, plane_.normal)) * plane_.normal;
-      if (detail::contains({&outline, 1}, plane_.normal, q)) return true;
+      if (contains({&outline, 1}, plane_.normal, q)) return true;
       for (std::size_t i = 0; i < outline.size(); ++i)
-        if (detail::distance_to_segment(q, outline[i], outline[(i + 1) % outline.size()]) <=
+        if (distance_to_segment(q, outline[i], outline[(i + 1) % outline.size()]) <=
             detail::kLean_m)
           return true;
       return false;
@@ -154,11 +151,11 @@ class ContentFinder {
   const Facet& facet_;
   const Plane& plane_;
   const PolygonGrid& grid_;
-  detail::ReachAxes axes_;
+  ReachAxes axes_;
   Reach reach_;
   bool is_rectangle_;
   std::vector<Layer> before_, behind_;
-  std::vector<detail::ParallelArea> parallel_;
+  std::vector<ParallelArea> parallel_;
   RingContent out_;
 };
 
@@ -222,7 +219,7 @@ class RingWriter {
   void write(const Ring& ring) {
     const PlaneId plane = solid_.facets[ring.facet.index()].plane;
     const Vec3 normal = plane_of(ring).normal;
-    const detail::ReachAxes axes = detail::axes_in(normal);
+    const ReachAxes axes = axes_in(normal);
     const Reach reach = axes.reach_of(ring.outline);
     const auto home = home_of(ring);
     if (!home) return;
@@ -236,7 +233,7 @@ class RingWriter {
     for (const FeatureId inner_id : index_.within(plane, reach)) {
       Feature& inner = out_.features[inner_id.index()];
       if (inner.planes.front() == plane && !inner.is_uncut &&
-          detail::contains({&ring.outline, 1}, normal, inner.cap_point) && !carries(inner_id, id))
+          contains({&ring.outline, 1}, normal, inner.cap_point) && !carries(inner_id, id))
         inner.host = id;
     }
     for (const int p : content.polygons) owner_[grid_.polygons()[at(p)].source] = id;
@@ -246,7 +243,7 @@ class RingWriter {
   /// by the ring that comes first.
   [[nodiscard]] bool is_told(const Ring& ring) {
     const Vec3 normal = plane_of(ring).normal;
-    const Reach reach = detail::axes_in(normal).reach_of(ring.outline);
+    const Reach reach = axes_in(normal).reach_of(ring.outline);
     Box box;
     for (const Vec3 p : ring.outline) box.grow(p);
     const Vec3 middle = 0.5 * (box.min + box.max);
@@ -274,7 +271,7 @@ class RingWriter {
     const Vec3 normal = plane_of(ring).normal;
     if (std::abs(dot(normal, other.normal)) < kParallel) return false;
     if (std::abs(dot(normal, middle - other.middle)) > kWall_m) return false;
-    const Reach its = detail::axes_in(normal).reach_of(other.outline);
+    const Reach its = axes_in(normal).reach_of(other.outline);
     const Reach common = reach.common(its);
     return !common.is_empty() &&
            common.area() >= (1 - detail::kAlike) * std::max(reach.area(), its.area());
@@ -341,7 +338,7 @@ class RingWriter {
     f.new_area_m2 = ring.area_m2;
     f.planes = {solid_.facets[ring.facet.index()].plane};
     f.cap_point =
-        detail::interior_point({&ring.outline, 1}, plane_of(ring).normal).value_or(ring.outline[0]);
+        interior_point({&ring.outline, 1}, plane_of(ring).normal).value_or(ring.outline[0]);
     std::vector<Vec3> corners = ring.outline;
     std::vector<double> areas_m2;
     for (const int p : content.polygons) {

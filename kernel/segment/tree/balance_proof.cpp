@@ -109,7 +109,7 @@ std::vector<int> signs_of(const TreeView& view, std::size_t count) {
 
 /// A facet of a cell.
 struct CellPane {
-  std::vector<detail::Outline> outlines;
+  std::vector<Outline> outlines;
   const Plane* plane = nullptr;
 };
 
@@ -122,7 +122,7 @@ class Evaluation {
       auto& panes = panes_.emplace_back();
       Box& box = boxes_.emplace_back();
       for (const Facet& facet : cell.facets) {
-        CellPane pane{detail::outlines_of(segmentation.vertices, facet.loops),
+        CellPane pane{outlines_of(segmentation.vertices, facet.loops),
                       &segmentation.planes[facet.plane.index()]};
         for (const Vec3 p : pane.outlines[0]) box.grow(p);
         panes.push_back(std::move(pane));
@@ -142,7 +142,7 @@ class Evaluation {
   void for_each_point(Visit visit) {
     for (const auto& panes : panes_)
       for (const CellPane& pane : panes)
-        if (const auto p = detail::interior_point(pane.outlines, pane.plane->normal))
+        if (const auto p = interior_point(pane.outlines, pane.plane->normal))
           for (const double side : {kBeside_m, -kBeside_m}) {
             if (work_.is_used_up()) return;
             const Vec3 beside = *p + side * pane.plane->normal;
@@ -196,8 +196,8 @@ class Evaluation {
     constexpr double kHalf = 0.5;  // the winding number is 0 or 1
     double winding = 0;
     for (const CellPane& pane : panes_[id.index()]) {
-      for (const detail::Outline& outline : pane.outlines) work_.add(std::ssize(outline));
-      winding += detail::winding_part(pane.outlines, point_);
+      for (const Outline& outline : pane.outlines) work_.add(std::ssize(outline));
+      winding += winding_part(pane.outlines, point_);
     }
     return winding > kHalf;
   }

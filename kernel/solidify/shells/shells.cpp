@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -164,4 +164,4 @@ void arrange_planes_and_loops(Solid& solid) {
   order_loops(solid);
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// What the input says of a connected component of facets.
 struct ComponentHint {
@@ -29,4 +29,4 @@ void arrange_shells(Solid& solid, std::span<const int> component,
 /// Drops planes without a facet and sorts the others and the loops, as a Solid has them.
 void arrange_planes_and_loops(Solid& solid);
 
-}  // namespace oriel::detail
+}  // namespace oriel

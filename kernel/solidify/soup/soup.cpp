@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
@@ -278,4 +278,4 @@ Soup with_faces(const Soup& soup, std::vector<AddedFace> faces) {
   return builder.finish();
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace oriel::detail {
+namespace oriel {
 
 /// The source of a face that no polygon of the input made.
 inline constexpr int kNoSource = -1;
@@ -107,4 +107,4 @@ struct AddedFace {
 /// The soup with faces of no source, each behind the polygons of its body.
 Soup with_faces(const Soup& soup, std::vector<AddedFace> faces);
 
-}  // namespace oriel::detail
+}  // namespace oriel

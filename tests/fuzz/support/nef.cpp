@@ -126,7 +126,7 @@ class NefJudge {
         number.push_back(corner(points.back(), surface));
       }
     }
-    for (const auto& [a, b, c] : detail::triangulate(points, rings, plane.normal)) {
+    for (const auto& [a, b, c] : triangulate(points, rings, plane.normal)) {
       if (++triangles_ > kMostTriangles) throw NotJudged{};
       surface.triangles.push_back({number[at(a)], number[at(b)], number[at(c)]});
     }

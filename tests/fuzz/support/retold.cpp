@@ -87,8 +87,7 @@ Building cut_into_triangles(const Building& building) {
     add_doubled_area(doubled, outer.size(), [&](std::size_t i) {
       return building.vertices[static_cast<std::size_t>(outer[i])];
     });
-    for (const auto& corners :
-         detail::triangulate(building.vertices, polygon.rings, normalised(doubled))) {
+    for (const auto& corners : triangulate(building.vertices, polygon.rings, normalised(doubled))) {
       Polygon triangle = polygon;
       triangle.rings = {{corners.begin(), corners.end()}};
       triangle.source = static_cast<int>(out.polygons.size());

@@ -9,9 +9,6 @@
 #include <rapidcheck.h>
 
 using namespace oriel;
-using detail::Outline;
-using detail::OutlineLimits;
-using detail::simplify_outlines;
 
 namespace {
 
@@ -19,7 +16,7 @@ constexpr double kReach_m = 0.001;
 
 bool anywhere(const Box& /*gained*/) { return true; }
 
-double area_m2(const Outline& outline) { return detail::signed_area(outline, {0, 0, 1}); }
+double area_m2(const Outline& outline) { return signed_area(outline, {0, 0, 1}); }
 
 struct SimplifiedOutline {
   Outline outline;
@@ -58,11 +55,10 @@ Outline facade(const std::vector<std::pair<int, int>>& steps) {
 
 /// In an area or on its outline, but for rounding.
 bool is_in(const std::vector<Outline>& outlines, Vec3 p) {
-  if (detail::contains(outlines, {0, 0, 1}, p)) return true;
+  if (contains(outlines, {0, 0, 1}, p)) return true;
   for (const Outline& outline : outlines)
     for (std::size_t i = 0; i < outline.size(); ++i)
-      if (detail::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]) < 1e-6)
-        return true;
+      if (distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]) < 1e-6) return true;
   return false;
 }
 

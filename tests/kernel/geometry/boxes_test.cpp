@@ -56,7 +56,7 @@ TEST_SUITE("kernel/geometry") {
   TEST_CASE("a tree finds the boxes that overlap and no others") {
     for (const std::size_t count : {0U, 1U, 2U, 3U, 50U, 333U}) {
       const std::vector<Box> boxes = random_boxes(count);
-      const detail::BoxTree tree(boxes);
+      const BoxTree tree(boxes);
       for (const Box& box : random_boxes(40)) {
         std::set<int> found, expected;
         tree.for_each_overlap(box, [&](int i) { CHECK(found.insert(i).second); });

@@ -9,7 +9,6 @@
 #include <doctest/doctest.h>
 
 using namespace oriel;
-using detail::Outline;
 
 namespace {
 

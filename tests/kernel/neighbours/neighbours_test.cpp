@@ -96,7 +96,7 @@ TEST_SUITE("kernel/neighbours") {
     const Neighbourhood high = search.of(all[0]), low = search.of(all[1]);
     CHECK(shared_m2(high, "b") == doctest::Approx(48));
     CHECK(shared_m2(low, "a") == doctest::Approx(48));
-    const std::vector<detail::Outline> wall{{{10, 0, 0}, {10, 8, 0}, {10, 8, 12}, {10, 0, 12}}};
+    const std::vector<Outline> wall{{{10, 0, 0}, {10, 8, 0}, {10, 8, 12}, {10, 0, 12}}};
     CHECK(high.covered_share(wall, {1, 0, 0}) == doctest::Approx(0.5));
   }
 
@@ -214,13 +214,13 @@ TEST_SUITE("kernel/neighbours") {
 
 TEST_SUITE("kernel/neighbours") {
   TEST_CASE("the area that two figures share is that of what both cover") {
-    const std::vector<detail::Outline> frame{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},
-                                             {{1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}}};
-    const std::vector<detail::Outline> bar{{{-1, 1.5, 0}, {9, 1.5, 0}, {9, 2.5, 0}, {-1, 2.5, 0}}};
-    CHECK(detail::figure_area_m2(frame, {0, 0, 1}) == doctest::Approx(12));
-    CHECK(detail::shared_area_m2(frame, bar, {0, 0, 1}) == doctest::Approx(2));
-    CHECK(detail::shared_area_m2(bar, frame, {0, 0, -1}) == doctest::Approx(2));
-    CHECK(detail::shared_area_m2(frame, frame, {0, 0, 1}) == doctest::Approx(12));
+    const std::vector<Outline> frame{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},
+                                     {{1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}}};
+    const std::vector<Outline> bar{{{-1, 1.5, 0}, {9, 1.5, 0}, {9, 2.5, 0}, {-1, 2.5, 0}}};
+    CHECK(figure_area_m2(frame, {0, 0, 1}) == doctest::Approx(12));
+    CHECK(shared_area_m2(frame, bar, {0, 0, 1}) == doctest::Approx(2));
+    CHECK(shared_area_m2(bar, frame, {0, 0, -1}) == doctest::Approx(2));
+    CHECK(shared_area_m2(frame, frame, {0, 0, 1}) == doctest::Approx(12));
   }
 
   TEST_CASE("areas that meet are one and cracks between them are no more") {
@@ -235,7 +235,7 @@ TEST_SUITE("kernel/neighbours") {
     const auto whole = detail::united(ring, 0.05, work);
     REQUIRE(whole.size() == 1);
     CHECK(whole[0].size() == 2);
-    CHECK(detail::figure_area_m2(whole[0], {0, 0, 1}) == doctest::Approx(800).epsilon(0.01));
+    CHECK(figure_area_m2(whole[0], {0, 0, 1}) == doctest::Approx(800).epsilon(0.01));
     ring.push_back(square(100, 0));
     CHECK(detail::united(ring, 0.05, work).size() == 2);
     Work little(10);
@@ -248,7 +248,7 @@ TEST_SUITE("kernel/neighbours") {
     const detail::PlanArea other{{{12, 4, 0}, {20, 4, 0}, {20, 20, 0}, {12, 20, 0}}};
     const auto strips = detail::gaps_between(one, other, 2.5, 0.1);
     REQUIRE(strips.size() == 1);
-    CHECK(detail::figure_area_m2(strips[0], {0, 0, 1}) == doctest::Approx(12));
+    CHECK(figure_area_m2(strips[0], {0, 0, 1}) == doctest::Approx(12));
     CHECK(detail::gaps_between(one, other, 1.5, 0.1).empty());
   }
 }

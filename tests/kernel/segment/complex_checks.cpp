@@ -15,8 +15,8 @@ namespace {
 
 std::vector<CellId> all_cells(const Segmentation& s) { return cells_of(s, FeatureId{}); }
 
-std::vector<detail::Outline> outlines_of(const CellComplex& complex, const Face& face) {
-  std::vector<detail::Outline> outlines;
+std::vector<Outline> outlines_of(const CellComplex& complex, const Face& face) {
+  std::vector<Outline> outlines;
   for (const Loop& loop : face.loops) {
     outlines.emplace_back();
     for (const int v : loop)
@@ -53,9 +53,8 @@ void check_sides(const Segmented& s, const CellComplex& complex,
     const Face& face = complex.faces()[f];
     const Vec3 normal = s.segmentation.planes[face.plane.index()].normal;
     const auto outlines = outlines_of(complex, face);
-    const auto inside = detail::interior_point(outlines, normal);
-    if (!inside || !detail::contains_clearly(outlines, normal, *inside, 2 * exactness.probe_m))
-      continue;
+    const auto inside = interior_point(outlines, normal);
+    if (!inside || !contains_clearly(outlines, normal, *inside, 2 * exactness.probe_m)) continue;
     CAPTURE(f);
     ++asked;
     CHECK(owner(*inside + exactness.probe_m * normal) == face.front);

@@ -47,13 +47,13 @@ double area_around(const CellComplex& complex, CellId cell) {
 /// True if all inner rings of the facets lie in their outer ones.
 bool has_sound_rings(const Solid& solid) {
   for (const Facet& facet : solid.facets) {
-    std::vector<detail::Outline> outer(1);
+    std::vector<Outline> outer(1);
     for (const int v : facet.loops[0])
       outer[0].push_back(solid.vertices[static_cast<std::size_t>(v)].point);
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     for (std::size_t i = 1; i < facet.loops.size(); ++i)
       for (const int v : facet.loops[i])
-        if (!detail::contains(outer, normal, solid.vertices[static_cast<std::size_t>(v)].point))
+        if (!contains(outer, normal, solid.vertices[static_cast<std::size_t>(v)].point))
           return false;
   }
   return true;
@@ -237,13 +237,13 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("edges that cross where both end are not cut there round after round") {
-    const detail::PlaneAxes axes({0, 0, 1});
-    detail::VertexPool pool({}, 0.001);
+    const PlaneAxes axes({0, 0, 1});
+    VertexPool pool({}, 0.001);
     // The second one begins beside the first one's begin, nearer than doubles tell from its length.
     const int a = pool.add({0, 0, 0}), b = pool.add({1, 0, 0});
     const int c = pool.add({0, 1e-18, 0}), d = pool.add({0.5, -1, 0});
     Work work;
-    const auto edges = detail::refine({{a, b, 0, 1}, {c, d, 1, 1}}, axes, pool, work);
+    const auto edges = refine({{a, b, 0, 1}, {c, d, 1, 1}}, axes, pool, work);
     CHECK(edges.size() == 2);
     CHECK(pool.vertices().size() == 4);
   }

@@ -9,13 +9,11 @@
 namespace oriel {
 namespace {
 
-using detail::Chord;
-
 constexpr double kReach_m = 0.00025;
 constexpr Vec3 kUp{0, 0, 1};
 
 /// Corners nearer to each other than the reach, as planes at a small angle give them.
-std::vector<Chord> crowded_chords(std::uint64_t seed, detail::VertexPool& pool) {
+std::vector<Chord> crowded_chords(std::uint64_t seed, VertexPool& pool) {
   Random random(seed);
   const auto jitter = [&] { return random.between(-3, 3) * (random.chance(0.5) ? 1e-4 : 1e-7); };
   const int count = random.between(4, 24);
@@ -36,13 +34,13 @@ std::vector<Chord> crowded_chords(std::uint64_t seed, detail::VertexPool& pool) 
 
 TEST_SUITE("kernel/segment") {
   TEST_CASE("chords that two vertices beside each other cut are cut to an end") {
-    detail::VertexPool pool({}, kReach_m);
+    VertexPool pool({}, kReach_m);
     // The diagonal of a rectangle that is far thinner than the reach turns into the other one.
     const int a = pool.add({0, 0, 0}), b = pool.add({2.8e-7, 0, 0});
     const int c = pool.add({2.8e-7, 1, 0}), d = pool.add({0, 1, 0});
     Work work(10'000);
     const auto edges =
-        refine({{a, c, 0, 1}, {c, d, 0, 1}, {b, a, 0, 1}}, detail::PlaneAxes(kUp), pool, work);
+        refine({{a, c, 0, 1}, {c, d, 0, 1}, {b, a, 0, 1}}, PlaneAxes(kUp), pool, work);
     CHECK_FALSE(work.is_used_up());
     CHECK_FALSE(edges.empty());
   }
@@ -51,10 +49,10 @@ TEST_SUITE("kernel/segment") {
     int cut = 0;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
       CAPTURE(seed);
-      detail::VertexPool pool({}, kReach_m);
+      VertexPool pool({}, kReach_m);
       const std::vector<Chord> chords = crowded_chords(seed, pool);
       Work work(200'000);
-      const auto edges = refine(chords, detail::PlaneAxes(kUp), pool, work);
+      const auto edges = refine(chords, PlaneAxes(kUp), pool, work);
       CHECK_FALSE(work.is_used_up());
       cut += edges.size() > chords.size() ? 1 : 0;
     }
@@ -62,9 +60,9 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("no edge comes of chords once the work is used up") {
-    detail::VertexPool pool({}, kReach_m);
+    VertexPool pool({}, kReach_m);
     Work work(10);
-    CHECK(refine(crowded_chords(1, pool), detail::PlaneAxes(kUp), pool, work).empty());
+    CHECK(refine(crowded_chords(1, pool), PlaneAxes(kUp), pool, work).empty());
     CHECK(work.is_used_up());
   }
 }
