@@ -42,11 +42,11 @@ Targets at_scale(double denominator);
 struct GeneraliseOptions : LabelOptions {
   bool reports_changes = false;  ///< TargetReport::changes
   bool reports_figures = false;  ///< TargetReport::figures
-  /// Is called often while a building is redrawn, with the stage that is at work: generalise while
-  /// features are taken off or changed, write while it is checked as it will be written, solidify
-  /// while it is repaired. What it throws, if it is no std::exception, ends generalise() and comes
-  /// out of it. Results do not depend on it.
-  std::function<void(Stage)> checkpoint{};
+  /// Is asked often while a building is redrawn whether nobody waits for it any longer, with the
+  /// stage that is at work: generalise while features are taken off or changed, write while it is
+  /// checked as it will be written, solidify while it is repaired. Once it says so, generalise()
+  /// soon ends with GeneralisedBuilding::is_given_up. Null: somebody waits.
+  std::function<bool(Stage)> is_given_up{};
   /// With `neighbours`: rows and blocks of the city, which become one building each. Null: none do.
   std::shared_ptr<const CityGroups> groups{};
 };
@@ -102,6 +102,8 @@ struct GeneralisedBuilding {
   /// It is one of a group that became one building (GeneraliseOptions::groups): it leads it, and
   /// its one level is the group's block, or it is gone from the file.
   bool leads_group = false, is_gone = false;
+  /// Nobody waited for it any longer (GeneraliseOptions::is_given_up): there is nothing else in it.
+  bool is_given_up = false;
 };
 
 /// Generalises a building for each of the targets: a closed solid with what the target can show

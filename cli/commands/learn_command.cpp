@@ -120,7 +120,8 @@ std::string proposals_text(const LearnArguments& arguments, const RuleBase& rule
   ProposeOptions options;
   options.objective = objective;
   options.penalty = arguments.penalty;
-  const auto proposals = propose(rules, samples, parts, options, shares_in_arena(arguments.jobs));
+  const auto proposals =
+      propose(rules, samples, parts, options, shares_in_arena(arguments.jobs)).value();
   if (proposals.empty()) return "no change of a rule pays on held-out folds\n";
   const auto merged = merge_pack_file(arguments.rules);
   return "changes of rules that pay, for a person to judge:\n" +

@@ -2,6 +2,7 @@
 
 #include "interpret/explain/feature_relations.h"
 #include "interpret/pack/rule_base.h"
+#include "kernel/base/parallel.h"
 #include "model/description/feature_graph.h"
 #include "model/description/feature_table.h"
 #include "model/interpretation.h"
@@ -142,9 +143,6 @@ struct FlipSearch {
   /// Somebody gave it up: nothing of it is an answer.
   bool is_given_up = false;
 };
-
-/// True if nobody waits for an answer any longer; is asked often. Null: somebody does.
-using IsGivenUp = std::function<bool()>;
 
 /// What keeps a rule from holding.
 struct MissReport {

@@ -52,6 +52,7 @@ class EdgeFinder {
     const double reach =
         std::max(kSmallShareOfRange * (high - low), kSmallShareOfValue * std::abs(value));
     const auto curves = set_.curves(setting_, param, all_);
+    if (set_.is_given_up()) return std::nullopt;
     std::vector<const ParamCurve*> of;
     LabelOutcome here;
     for (const ParamCurve& curve : curves) {
@@ -128,10 +129,11 @@ std::string list_of_labels(const std::set<std::string>& labels) {
 class Learner {
  public:
   Learner(const RuleBase& rules, std::span<const Sample> samples, std::span<const SamplePart> parts,
-          const LearnOptions& options, const ForEachShare& for_each)
+          const LearnOptions& options, const ForEachShare& for_each,
+          const IsGivenUp& is_given_up = nullptr)
       : parts_(parts.begin(), parts.end()),
         options_(options),
-        set_(rules.pack(), samples, options.objective, for_each),
+        set_(rules.pack(), samples, options.objective, for_each, {}, is_given_up),
         base_(set_.setting()),
         all_(all_samples(samples.size())) {}
 
@@ -149,11 +151,13 @@ class Learner {
     for (const Setting& setting : fit.searched) learnt_.by_fold.push_back(changes_of(setting));
     std::vector<Setting> without;
     for (const SamplePart& part : parts_) {
+      if (set_.is_given_up()) return {};
       step();
       without.push_back(fit_on(fitter, outside(part, all_)));
       learnt_.learnt_without.push_back(changes_of(without.back()));
     }
     judge(fitter, fit, held_out_outcomes(set_, parts_, without));
+    if (set_.is_given_up()) return {};
     return {std::move(learnt_), std::move(issues_)};
   }
 
@@ -329,8 +333,8 @@ class Learner {
 
 Checked<Learnt> learn_params(const RuleBase& rules, std::span<const Sample> samples,
                              std::span<const SamplePart> parts, const LearnOptions& options,
-                             const ForEachShare& for_each) {
-  return Learner(rules, samples, parts, options, for_each).run();
+                             const ForEachShare& for_each, const IsGivenUp& is_given_up) {
+  return Learner(rules, samples, parts, options, for_each, is_given_up).run();
 }
 
 Checked<std::vector<ParamValue>> fit_params(const RuleBase& rules, std::span<const Sample> samples,

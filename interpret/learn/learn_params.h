@@ -102,12 +102,14 @@ struct Learnt {
 /// it is. (Varma and Simon 2006, Bias in error estimation when using cross-validation for model
 /// selection: this is their nested cross-validation.)
 ///
-/// The same for the same input, seed and parts at any number of threads. Errors, without a value:
-/// R206 unknown params, R283 a class of the objective that no truth has, R282 folds that leave
-/// nothing to learn from. Warnings: R285 a fold without an object of a class that others have.
+/// The same for the same input, seed and parts at any number of threads. Without a value and
+/// without an error if it was given up. Errors, without a value: R206 unknown params, R283 a class
+/// of the objective that no truth has, R282 folds that leave nothing to learn from. Warnings: R285
+/// a fold without an object of a class that others have.
 Checked<Learnt> learn_params(const RuleBase& rules, std::span<const Sample> samples,
                              std::span<const SamplePart> parts, const LearnOptions& options,
-                             const ForEachShare& for_each = for_each_in_turn);
+                             const ForEachShare& for_each = for_each_in_turn,
+                             const IsGivenUp& is_given_up = nullptr);
 
 /// So many folds decide within what is learnt from; fewer where there are fewer samples.
 inline constexpr std::size_t kInnerFolds = 5;

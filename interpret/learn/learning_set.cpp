@@ -72,11 +72,12 @@ struct LearningSet::Worker {
 
 LearningSet::LearningSet(const rules::Pack& pack, std::span<const Sample> samples,
                          Objective objective, const ForEachShare& for_each,
-                         const ScoreOptions& options)
+                         const ScoreOptions& options, IsGivenUp is_given_up)
     : pack_(pack),
       samples_(samples),
       objective_(std::move(objective)),
       for_each_(for_each),
+      is_given_up_(std::move(is_given_up)),
       turns_(pack.params.size()),
       affected_(pack.params.size()),
       known_(samples.size()) {
@@ -122,6 +123,7 @@ void LearningSet::for_each_sample(std::span<const std::size_t> samples,
                                   const std::function<void(std::size_t)>& work) const {
   const std::size_t shares = (samples.size() + kSamplesInShare - 1) / kSamplesInShare;
   for_each_(shares, [&](std::size_t share) {
+    if (is_given_up()) return;
     const std::size_t begin = share * kSamplesInShare;
     for (const std::size_t sample :
          samples.subspan(begin, std::min(kSamplesInShare, samples.size() - begin)))

@@ -27,11 +27,12 @@ using Setting = std::vector<double>;
 
 /// Samples on which a pack is measured at many settings of its params. What a sample comes to at a
 /// setting is known once it was found: folds, and folds within folds, begin at the same settings.
-/// One thread at a time may ask.
+/// One thread at a time may ask. Once it is given up nothing more is measured: outcomes stay empty.
 class LearningSet {
  public:
   LearningSet(const rules::Pack& pack, std::span<const Sample> samples, Objective objective,
-              const ForEachShare& for_each, const ScoreOptions& options = {});
+              const ForEachShare& for_each, const ScoreOptions& options = {},
+              IsGivenUp is_given_up = nullptr);
   ~LearningSet();
   LearningSet(const LearningSet&) = delete;
   LearningSet& operator=(const LearningSet&) = delete;
@@ -45,6 +46,7 @@ class LearningSet {
   /// The pack's own values.
   [[nodiscard]] Setting setting() const;
 
+  [[nodiscard]] bool is_given_up() const { return is_given_up_(); }
   /// False if the pack would be refused with these values.
   [[nodiscard]] bool is_sound(const Setting& setting) const;
 
@@ -83,6 +85,7 @@ class LearningSet {
   std::span<const Sample> samples_;
   Objective objective_;
   const ForEachShare& for_each_;
+  GivenUp is_given_up_;
   LabelSet labels_;
   std::vector<int> label_of_class_;
   std::vector<std::size_t> params_;

@@ -171,23 +171,29 @@ class Proposer {
  public:
   Proposer(const RuleBase& rules, std::span<const Sample> samples,
            std::span<const SamplePart> parts, const ProposeOptions& options,
-           const ForEachShare& for_each)
+           const ForEachShare& for_each, const IsGivenUp& is_given_up)
       : rules_(rules),
         pack_(rules.pack()),
         samples_(samples),
         parts_(parts),
         options_(options),
-        for_each_(for_each) {
+        is_given_up_(is_given_up),
+        for_each_([this, &for_each](std::size_t count, const auto& work) {
+          for_each(count, [&](std::size_t i) {
+            if (!is_given_up_()) work(i);
+          });
+        }) {
     std::vector<std::string> names = rules.labels();
     labels_.add(names);
     for (const Sample& sample : samples) labels_.add(sample.truth);
   }
 
-  std::vector<Proposal> run() {
+  std::optional<std::vector<Proposal>> run() {
     const Variant as_it_is{"as it is", {}, {}, {}};
     base_ = outcomes_of(rules_, {&as_it_is, 1}).front();
     add_drops();
     add_stumps();
+    if (is_given_up_()) return std::nullopt;
     std::ranges::stable_sort(proposals_, {}, [](const Proposal& p) {
       return std::tuple(-p.held_out_gain, std::string_view(p.what));
     });
@@ -278,7 +284,7 @@ class Proposer {
   [[nodiscard]] std::vector<std::vector<Decided>> decided() const {
     std::vector<std::vector<Decided>> by_rule(pack_.rules.size());
     const rules::RuleUses uses(pack_);
-    for (std::size_t s = 0; s < samples_.size(); ++s) {
+    for (std::size_t s = 0; s < samples_.size() && !is_given_up_(); ++s) {
       const DescribedBuilding& building = samples_[s].features;
       const rules::Relabelling labelled(pack_, uses, building.table, building.graph);
       std::vector<int> labels;
@@ -320,6 +326,7 @@ class Proposer {
       }
     const Variant as_it_is{"as it is", {}, {}, {}};
     for (const Stump& stump : stumps) {
+      if (is_given_up_()) return;
       const rules::Rule& rule = pack_.rules[at(stump.rule)];
       Proposal proposal;
       proposal.rule = rule.id;
@@ -336,7 +343,9 @@ class Proposer {
   std::span<const Sample> samples_;
   std::span<const SamplePart> parts_;
   const ProposeOptions& options_;
-  const ForEachShare& for_each_;
+  GivenUp is_given_up_;
+  /// Leaves out shares that have not begun when it is given up.
+  ForEachShare for_each_;
   LabelSet labels_;
   Outcomes base_;
   std::vector<Proposal> proposals_;
@@ -344,10 +353,12 @@ class Proposer {
 
 }  // namespace
 
-std::vector<Proposal> propose(const RuleBase& rules, std::span<const Sample> samples,
-                              std::span<const SamplePart> parts, const ProposeOptions& options,
-                              const ForEachShare& for_each) {
-  return Proposer(rules, samples, parts, options, for_each).run();
+std::optional<std::vector<Proposal>> propose(const RuleBase& rules, std::span<const Sample> samples,
+                                             std::span<const SamplePart> parts,
+                                             const ProposeOptions& options,
+                                             const ForEachShare& for_each,
+                                             const IsGivenUp& is_given_up) {
+  return Proposer(rules, samples, parts, options, for_each, is_given_up).run();
 }
 
 }  // namespace oriel

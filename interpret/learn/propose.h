@@ -7,6 +7,7 @@
 #include "kernel/base/parallel.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,9 +44,11 @@ struct ProposeOptions {
 /// others by a relation that would take mistakes from a rule (decision stumps over the features
 /// that it decided, right or wrong). Each is chosen on the buildings outside a fold and measured on
 /// the fold; proposed is what pays outside at least half of the folds, and on these folds together.
-/// The best first. The same at any number of threads.
-std::vector<Proposal> propose(const RuleBase& rules, std::span<const Sample> samples,
-                              std::span<const SamplePart> parts, const ProposeOptions& options,
-                              const ForEachShare& for_each = for_each_in_turn);
+/// The best first. The same at any number of threads. Nothing, not even none, if it was given up.
+std::optional<std::vector<Proposal>> propose(const RuleBase& rules, std::span<const Sample> samples,
+                                             std::span<const SamplePart> parts,
+                                             const ProposeOptions& options,
+                                             const ForEachShare& for_each = for_each_in_turn,
+                                             const IsGivenUp& is_given_up = nullptr);
 
 }  // namespace oriel

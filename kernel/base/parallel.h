@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
+#include <utility>
 
 namespace oriel {
 
@@ -14,5 +16,24 @@ using ForEachShare =
 inline void for_each_in_turn(std::size_t count, const std::function<void(std::size_t)>& work) {
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
+
+/// True if nobody waits for an answer any longer; is asked often, of work in shares from any of its
+/// threads. Null: somebody does.
+using IsGivenUp = std::function<bool()>;
+
+/// Asks that until it was true once: what was given up stays so.
+class GivenUp {
+ public:
+  explicit GivenUp(IsGivenUp ask) : ask_(std::move(ask)) {}
+
+  bool operator()() const {
+    if (!was_ && ask_ && ask_()) was_ = true;
+    return was_;
+  }
+
+ private:
+  IsGivenUp ask_;
+  mutable std::atomic<bool> was_ = false;
+};
 
 }  // namespace oriel

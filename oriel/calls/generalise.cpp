@@ -120,10 +120,13 @@ class BuildingDrawer {
   void keep_fineness(const Profile* profile, const PipelineResult& result,
                      const Generalised& changes, const Redrawn& redrawn,
                      GeneralisedBuilding& out) const;
-  void pass(Stage stage) const {
-    if (options_.checkpoint) options_.checkpoint(stage);
+  /// Once that is so there is no work left either.
+  bool is_given_up(Stage stage) const {
+    const bool is_it = options_.is_given_up && options_.is_given_up(stage);
+    if (is_it) work_ = Work(-1);
+    return is_it;
   }
-  [[nodiscard]] SolidValidator passing(SolidValidator validator) const;
+  [[nodiscard]] SolidValidator asking(SolidValidator validator) const;
   void give_up(const PipelineResult& result, Issue fault, GeneralisedBuilding& drawn) const;
   [[nodiscard]] Redrawn untouched(const PipelineResult& result, GeneralisedBuilding& out) const;
   [[nodiscard]] std::string target_text(const Profile* profile) const;
@@ -143,7 +146,7 @@ GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging j
   const LabelledBuilding labelled = annotate(building_, result, rules_, options_);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
   for (std::size_t i = 0; i < count; ++i) {
-    pass(Stage::generalise);
+    if (is_given_up(Stage::generalise)) break;
     const Profile* profile = i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr;
     auto redrawn = draw_for(profile, {result, labelled, undrawn}, judging, drawn);
     if (!redrawn) {
@@ -191,7 +194,7 @@ void BuildingDrawer::draw_without_imprints(const PipelineResult& result,
 
 void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
   Work work(options_.budget);
-  pass(Stage::solidify);
+  if (is_given_up(Stage::solidify)) return;
   auto repaired = repair_and_retry(document_, building_, result, rules_, options_, work);
   if (!repaired) return;
   const BuildingDrawer anew(document_, building_, rules_, targets_, options_, work);
@@ -217,7 +220,7 @@ std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
   std::optional<Issue> fault;
   for (Redrawn& redrawn : drawn.levels) {
     if (!redrawn.labelled.geometry) continue;
-    pass(Stage::write);
+    if (is_given_up(Stage::write)) return std::nullopt;
     if (auto found = check_redrawn(document_, building_, *result.solid, *redrawn.labelled.geometry))
       fault = std::move(found);
   }
@@ -282,7 +285,7 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
   const FeatureTable& table = result.description.table;
   Plan plan = plan_for(profile, result, out);
   auto made = carried_out(profile, result, invariants_for(profile, result, judging), plan);
-  if (!keep(made.issues, out) || !made.value) return std::nullopt;
+  if (!keep(made.issues, out) || !made.value || is_given_up(Stage::generalise)) return std::nullopt;
   made.value->undrawn = of.undrawn;
   // Levels of detail are drawn in any case, and judged as they are drawn.
   if (!targets_.has_lods()) redraw_unchanged(result, *made.value, out);
@@ -331,18 +334,17 @@ Invariants BuildingDrawer::invariants_for(const Profile* profile, const Pipeline
                                            document_, building_, result);
   invariants.work = &work_;
   if (judging != Judging::none)
-    invariants.validator = passing(
+    invariants.validator = asking(
         counted(judge_as_written(document_, building_, *result.solid, judging == Judging::thorough),
                 work_));
   return invariants;
 }
 
-/// A checkpoint before each of its judgements.
-SolidValidator BuildingDrawer::passing(SolidValidator validator) const {
-  if (!options_.checkpoint) return validator;
+/// Before each of its judgements.
+SolidValidator BuildingDrawer::asking(SolidValidator validator) const {
+  if (!options_.is_given_up) return validator;
   validator.fitness_of = [this, inner = std::move(validator.fitness_of)](const Solid& solid) {
-    pass(Stage::generalise);
-    return inner(solid);
+    return is_given_up(Stage::generalise) ? Fitness::unfit : inner(solid);
   };
   return validator;
 }
@@ -354,7 +356,7 @@ Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile,
                                                  const Invariants& invariants, Plan& plan) const {
   const FeatureTable& table = result.description.table;
   const auto carry_out = [&] {
-    pass(Stage::generalise);
+    is_given_up(Stage::generalise);
     return oriel::generalise(*result.solid, *result.segmentation, table, result.interpretation,
                              plan, segment_options(options_, result.tolerances), invariants);
   };
@@ -507,16 +509,22 @@ void add_stood_for(const std::vector<std::string>& ids, GeneralisedBuilding& mad
 
 GeneralisedBuilding generalise(const Document& document, const Building& building,
                                const PipelineResult& result, const RuleBase& rules,
-                               const Targets& targets, const GeneraliseOptions& options) {
-  if (options.groups && result.surroundings)
-    if (auto grouped = as_part_of_group(building, result, rules, options)) return *grouped;
+                               const Targets& targets, const GeneraliseOptions& asked) {
+  if (asked.groups && result.surroundings)
+    if (auto grouped = as_part_of_group(building, result, rules, asked)) return *grouped;
   if (!building.installations.empty()) {
     const Building alone = without_installations(building);
-    return generalise(document, alone, label(alone, rules, options), rules, targets, options);
+    return generalise(document, alone, label(alone, rules, asked), rules, targets, asked);
   }
   GeneralisedBuilding drawn;
   drawn.building = building.id;
   if (!result.is_done()) return drawn;
+  GeneraliseOptions options = asked;
+  bool is_given_up = false;
+  if (asked.is_given_up)
+    options.is_given_up = [&](Stage stage) {
+      return is_given_up = is_given_up || asked.is_given_up(stage);
+    };
   Work work = drawing_work(options.budget);
   const BuildingDrawer drawer(document, building, rules, targets, options, work);
   return logged(
@@ -525,6 +533,8 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
         GeneralisedBuilding made =
             result.is_open ? open_drawing(drawer, result, options.observer)
                            : valid_drawing(drawer, result, Origin::input, options.observer);
+        drawn.is_given_up = is_given_up;
+        if (is_given_up) return drawn;
         if (has_errors(made.issues)) made.levels.clear();
         if (options.reports_figures)
           measure_figures(document, building, result, rules, options, made);

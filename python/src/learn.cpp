@@ -171,7 +171,8 @@ std::vector<Proposal> proposals_of(const LearntFrom& from) {
   ProposeOptions options;
   options.objective = from.options.objective;
   options.penalty = from.options.penalty;
-  return propose(from.rules, from.samples, from.parts, options, shares_on_threads(from.jobs));
+  return propose(from.rules, from.samples, from.parts, options, shares_on_threads(from.jobs))
+      .value();
 }
 
 std::string yaml_of_proposals(const LearntFrom& from, const std::vector<Proposal>& proposals) {

@@ -5,8 +5,7 @@
 
 namespace oriel::studio {
 
-ScaleCache::Answer ScaleCache::get(const std::string& key,
-                                   const std::function<StudioJson()>& make) {
+ScaleCache::Answer ScaleCache::get(const std::string& key, const std::function<Answer()>& make) {
   std::promise<Answer> promise;
   {
     std::unique_lock lock(mutex_);
@@ -23,7 +22,8 @@ ScaleCache::Answer ScaleCache::get(const std::string& key,
     }
   }
   try {
-    auto answer = std::make_shared<const StudioJson>(make());
+    Answer answer = make();
+    if (!answer) forget(key);
     promise.set_value(answer);
     return answer;
   } catch (...) {

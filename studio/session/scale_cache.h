@@ -19,9 +19,9 @@ class ScaleCache {
  public:
   using Answer = std::shared_ptr<const StudioJson>;
 
-  /// What is kept under `key`, else what `make` makes, which is kept then; if it throws, nothing
-  /// is.
-  Answer get(const std::string& key, const std::function<StudioJson()>& make);
+  /// What is kept under `key`, else what `make` makes, which is kept then, unless it is null or
+  /// `make` throws.
+  Answer get(const std::string& key, const std::function<Answer()>& make);
 
  private:
   void forget(const std::string& key);

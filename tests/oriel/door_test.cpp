@@ -97,6 +97,32 @@ TEST_SUITE("oriel") {
     CHECK_FALSE(rings.is_supposed);
   }
 
+  TEST_CASE("a drawing that nobody waits for is given up wherever it stands") {
+    const auto records = records_of("house");
+    const Building& building = records[0].buildings.at(0);
+    const PipelineResult labelled = label(building, residential());
+    GeneraliseOptions options;
+    options.reports_changes = options.reports_figures = true;
+    const auto drawn = [&](std::function<bool(Stage)> is_given_up) {
+      options.is_given_up = std::move(is_given_up);
+      return generalise(records[0], building, labelled, residential(), at_scale(5000), options);
+    };
+    int asked = 0;
+    const auto whole = drawn([&](Stage) { return ++asked < 0; });
+    CHECK_FALSE(whole.is_given_up);
+    CHECK(whole.levels.size() == 1);
+    CHECK(whole.issues.size() == drawn(nullptr).issues.size());
+    CHECK(asked > 3);
+    for (int most = 0; most < asked; most = 2 * most + 1) {
+      int count = 0;
+      const auto made = drawn([&](Stage) { return count++ == most; });
+      CHECK(made.is_given_up);
+      CHECK(made.building == building.id);
+      CHECK((made.levels.empty() && made.reports.empty() && made.issues.empty()));
+      CHECK(count == most + 1);
+    }
+  }
+
   TEST_CASE("the observer hears of every stage and changes nothing") {
     const auto records = records_of("house");
     const Building& building = records[0].buildings.at(0);

@@ -31,7 +31,7 @@ double answer(const std::vector<double>& values, std::vector<double>& /*gradient
   auto& question = *static_cast<JointQuestion*>(data);
   SearchRun run = question.run;
   for (std::size_t i = 0; i < values.size(); ++i) run.at[question.params[i]] = values[i];
-  if (!question.set.is_sound(run.at)) return kRefused;
+  if (question.set.is_given_up() || !question.set.is_sound(run.at)) return kRefused;
   run.objective = question.set.value(question.set.outcomes(run.at, run.samples), run.samples);
   if (run.objective > question.best.objective) question.best = run;
   return run.objective;

@@ -73,6 +73,7 @@ bool ParamSearch::move_all(std::span<SearchRun> runs, std::size_t param) const {
 /// To the best plateau, of equal ones the nearest to the base.
 bool ParamSearch::move(SearchRun& run, std::size_t param,
                        std::span<const ParamCurve> curves) const {
+  if (set_.is_given_up()) return false;
   const auto [low, high] = *set_.pack().params[param].range;
   std::vector<const ParamCurve*> own;
   LabelOutcome here;

@@ -17,9 +17,6 @@ namespace {
 /// So many parts of the samples are held out in turn.
 constexpr std::size_t kFolds = 5;
 
-/// Somebody stopped the search.
-struct StoppedLearning {};
-
 StudioJson empty_result() {
   return {{"text", ""},
           {"summary", ""},
@@ -110,23 +107,13 @@ std::shared_ptr<const Learnt> LearningJob::learnt(const RuleBase& rules) const {
 }
 
 void LearningJob::learn(LearningTask task) {
-  // A share of the work can be left, too: a single search takes long.
-  const ForEachShare for_each = std::move(task.for_each);
-  task.for_each = [&](std::size_t count, const std::function<void(std::size_t)>& work) {
-    for_each(count, [&](std::size_t i) {
-      if (is_stopped_) throw StoppedLearning{};
-      work(i);
-    });
-  };
   task.options.step = [&](std::size_t done, std::size_t all) {
-    if (is_stopped_) throw StoppedLearning{};
     const std::lock_guard lock(mutex_);
     done_ = done;
     all_ = all;
   };
   try {
-    run(task);
-  } catch (const StoppedLearning&) {
+    if (run(task)) return;
     const std::lock_guard lock(mutex_);
     state_ = State::idle;
   } catch (const std::exception& fault) {
@@ -134,19 +121,23 @@ void LearningJob::learn(LearningTask task) {
   }
 }
 
-void LearningJob::run(const LearningTask& task) {
+bool LearningJob::run(const LearningTask& task) {
+  const IsGivenUp is_given_up = [this] { return is_stopped_.load(); };
   const std::vector<Sample>& samples = task.samples->samples;
   const auto parts = folds_of(samples.size(), kFolds, task.options.seed);
-  const auto learnt = learn_params(task.rules, samples, parts, task.options, task.for_each);
-  if (!learnt.value) return fail(learnt.issues);
-  std::vector<Proposal> proposals;
+  const auto learnt =
+      learn_params(task.rules, samples, parts, task.options, task.for_each, is_given_up);
+  if (!learnt.value && has_errors(learnt.issues)) fail(learnt.issues);
+  if (!learnt.value) return has_errors(learnt.issues);
+  std::optional<std::vector<Proposal>> proposals(std::in_place);
   if (task.proposes) {
     ProposeOptions options;
     options.objective = task.options.objective;
     options.penalty = task.options.penalty;
-    proposals = propose(task.rules, samples, parts, options, task.for_each);
+    proposals = propose(task.rules, samples, parts, options, task.for_each, is_given_up);
   }
-  finish(task, *learnt.value, proposals, learnt.issues);
+  if (proposals) finish(task, *learnt.value, *proposals, learnt.issues);
+  return proposals.has_value();
 }
 
 void LearningJob::finish(const LearningTask& task, const Learnt& learnt,

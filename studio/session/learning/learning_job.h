@@ -38,7 +38,7 @@ class LearningJob {
 
   /// Throws RefusedRequest 409 if one is running.
   void start(LearningTask task);
-  /// Ends it as soon as the step at hand can be left.
+  /// Ends it as soon as the work at hand can be left.
   void stop();
   /// The change of rules with that number among the proposals, made in a text that may have been
   /// edited meanwhile: {yaml, text, why_not}. Throws RefusedRequest 409 if there is none.
@@ -51,7 +51,8 @@ class LearningJob {
  private:
   enum class State { idle, running, done, failed };
 
-  void run(const LearningTask& task);
+  /// False if it was stopped.
+  bool run(const LearningTask& task);
   void learn(LearningTask task);
   void finish(const LearningTask& task, const Learnt& learnt,
               const std::vector<Proposal>& proposals, const std::vector<Issue>& issues);

@@ -148,12 +148,9 @@ class RedrawnWriter {
   std::map<std::string, int> feature_by_id_;
 };
 
-/// Nobody waits for the drawing any longer. No std::exception: those are faults of a building.
-struct DrawingGivenUp {};
-
-/// Draws the building; throws DrawingGivenUp.
-StudioJson drawn(Desk& desk, const AskedBuilding& asked, const Targets& targets,
-                 const std::function<bool()>& is_given_up) {
+/// Draws the building; null if it was given up.
+ScaleCache::Answer drawn(Desk& desk, const AskedBuilding& asked, const Targets& targets,
+                         const IsGivenUp& is_given_up) {
   const OpenBuilding& open = *asked.labelled->building;
   DrawingProgress::DrawingAtWork drawing(desk.drawing, asked.number, targets.text());
   GeneraliseOptions options;
@@ -161,24 +158,25 @@ StudioJson drawn(Desk& desk, const AskedBuilding& asked, const Targets& targets,
   options.corrections = nullptr;
   options.has_output = false;
   options.reports_changes = true;
-  options.checkpoint = [&](Stage stage) {
+  options.is_given_up = [&](Stage stage) {
     drawing.pass(stage);
-    if (is_given_up()) throw DrawingGivenUp{};
+    return is_given_up();
   };
-  options.checkpoint(Stage::interpret);
+  if (options.is_given_up(Stage::interpret)) return nullptr;
   const AtWork at_work(desk.options.work_log, WorkLog::Kind::building, asked.number);
   const RuleBase& rules = asked.all->rules;
   const PipelineResult result = label(*open.building, open.segmented, rules, options);
-  options.checkpoint(Stage::generalise);
+  if (options.is_given_up(Stage::generalise)) return nullptr;
   const GeneralisedBuilding made =
       generalise(*open.document, *open.building, result, rules, targets, options);
+  if (made.is_given_up) return nullptr;
   StudioJson answer = StudioJson::object();
   RedrawnWriter(open, desk.buildings.origin_m()).write(made, answer);
   answer["note"] = asked.all->buildings.size() > 1
                        ? "this building is drawn alone; the other buildings are not looked at and "
                          "stay as they are"
                        : "";
-  return answer;
+  return std::make_shared<const StudioJson>(std::move(answer));
 }
 
 }  // namespace
@@ -194,13 +192,11 @@ StudioJson answer_scale(Desk& desk, const RequestBody& body) {
   const std::string key =
       fmt::format("{} {} {}", asked.number, asked.all->rules.sha256(), targets.recipe());
   const auto is_given_up = desk.drawings.begin(key);
-  while (!is_given_up()) {
-    try {
-      return *desk.scales.get(key, [&] { return drawn(desk, asked, targets, is_given_up); });
-    } catch (const DrawingGivenUp&) {
-      // Perhaps an older request's for the same that was given up in between: once more.
-    }
-  }
+  // Null may be an older request's for the same, given up in between: once more.
+  while (!is_given_up())
+    if (const auto answer =
+            desk.scales.get(key, [&] { return drawn(desk, asked, targets, is_given_up); }))
+      return *answer;
   refuse_superseded("another drawing was asked for, or none");
 }
 

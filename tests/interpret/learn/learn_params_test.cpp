@@ -3,10 +3,12 @@
 #include "interpret/learn/ask.h"
 #include "interpret/learn/learning_set.h"
 #include "interpret/learn/learnt_pack.h"
+#include "interpret/learn/propose.h"
 #include "interpret/learn/search/param_fit.h"
 #include "interpret/learn/search/plateau.h"
 #include "tests/interpret/learn/random_samples.h"
 
+#include <functional>
 #include <numeric>
 #include <thread>
 
@@ -170,6 +172,30 @@ TEST_SUITE("interpret/learn") {
     for (const std::size_t i : outside(parts[0], all_samples(samples.size())))
       others.push_back(samples[i]);
     CHECK(fit_params(rules, others, {}).value == learnt.learnt_without[0]);
+  }
+
+  TEST_CASE("learning that nobody waits for is given up wherever it stands") {
+    const RuleBase rules = with(sills(), {{"sill", 3.0}});
+    const auto samples = samples_labelled_by(sills(), 6);
+    const auto parts = folds_of(samples.size(), 3, 1);
+    const auto learn = [&](const IsGivenUp& is_given_up) {
+      const auto learnt = learn_params(rules, samples, parts, {}, for_each_in_turn, is_given_up);
+      CHECK(learnt.issues.empty());
+      return learnt.value.has_value();
+    };
+    const auto look = [&](const IsGivenUp& is_given_up) {
+      return propose(rules, samples, parts, {}, for_each_in_turn, is_given_up).has_value();
+    };
+    for (const auto& work : {std::function<bool(const IsGivenUp&)>(learn), {look}}) {
+      int asked = 0;
+      CHECK(work([&] { return ++asked < 0; }));
+      CHECK(asked > 10);
+      for (int most = 0; most < asked; most = 2 * most + 1) {
+        int count = 0;
+        CHECK_FALSE(work([&] { return count++ == most; }));
+        CHECK(count == most + 1);
+      }
+    }
   }
 
   TEST_CASE("nothing is fitted to samples without an object of the objective") {

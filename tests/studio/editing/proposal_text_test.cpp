@@ -29,7 +29,7 @@ std::vector<Sample> true_samples(const RuleBase& truth) {
 }
 
 std::vector<Proposal> proposals_for(const std::string& pack, const std::vector<Sample>& samples) {
-  return propose(load(pack), samples, folds_of(samples.size(), 4, 1), {});
+  return propose(load(pack), samples, folds_of(samples.size(), 4, 1), {}).value();
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ TEST_SUITE("interpret/learn") {
         "- {id: door.d, label: door, require: [base_height > 6 m, depth > 1 m], priority: 5}\n"
         "decide: {min_score: 0.1}\n";
     const RuleBase base = load(pack);
-    const auto proposals = propose(base, samples, folds_of(samples.size(), 4, 1), {});
+    const auto proposals = propose(base, samples, folds_of(samples.size(), 4, 1), {}).value();
     REQUIRE_FALSE(proposals.empty());
     for (const Proposal& proposal : proposals) {
       CAPTURE(proposal.what);
