@@ -140,7 +140,7 @@ struct Rows {
 
 void compare(const Building& building, const RuleBase& rules, double scale, Rows& rows) {
   const PipelineResult labelled = label(building, rules);
-  if (!labelled.is_done() || labelled.is_open) return;
+  if (!labelled.is_done() || labelled.is_open()) return;
   const Solid& solid = *labelled.solid;
   const Mesh before = to_mesh(solid);
   if (before.findings().non_manifold_edges > 0 || before.findings().doubled_vertices > 0) return;

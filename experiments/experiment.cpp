@@ -36,7 +36,7 @@ struct CountedBuilding {
 void count_building(CountedBuilding& counted, const PipelineOptions& options) {
   PipelineResult result = segment(counted.building, options);
   counted.issues = std::move(result.issues);
-  if (result.is_done() && !result.is_open)
+  if (result.is_done() && !result.is_open())
     counted.count = count_as_paper(counted.building, result, options);
 }
 

@@ -29,17 +29,21 @@ struct LabelCorrection {
   Place place;
 };
 
+/// What the solid of a building is.
+enum class BodyKind {
+  solid,           ///< its own, closed
+  supposed_solid,  ///< what it would be if the faces that are missing were there: it stayed open
+  open_shell       ///< the facets that there are: it stayed open, and nothing was cut
+};
+
 /// All that is known of one building, as far as it came in the pipeline
 /// solidify → segment → describe → interpret.
 struct PipelineResult {
   /// Missing: nothing could be made of the polygons, and `issues` says why.
   std::optional<Solid> solid;
   RepairReport repair;
-  /// The building stayed open: it has no solid, and what is written are its own polygons. `solid`
-  /// is then its supposed_solid, or no solid at all but its open_shell, and nothing was cut.
-  bool is_open = false;
-  /// `solid` is a supposed_solid.
-  bool is_supposed = false;
+  /// What `solid` is, if it is there.
+  BodyKind body = BodyKind::solid;
   std::optional<Segmentation> segmentation;
   /// Those it was cut with: fitted to its noise.
   Tolerances tolerances;
@@ -67,7 +71,9 @@ struct PipelineResult {
   /// It was segmented; if not, `issues` has an error that says why the building was rejected.
   [[nodiscard]] bool is_done() const { return segmentation.has_value(); }
   /// `solid` is closed.
-  [[nodiscard]] bool is_solid() const { return solid.has_value() && (!is_open || is_supposed); }
+  [[nodiscard]] bool is_solid() const { return solid && body != BodyKind::open_shell; }
+  /// The building stayed open, but its features are found: what is written are its own polygons.
+  [[nodiscard]] bool is_open() const { return solid && body != BodyKind::solid; }
   /// Its surfaces can be named, though the building may have been rejected.
   [[nodiscard]] bool has_surfaces() const { return surfaces.rows() > 0; }
 };

@@ -22,7 +22,7 @@ PipelineResult RecordWorker::result_of(const Building& building, Timings& timing
 BuildingOutcome RecordWorker::outcome_of(const PipelineResult& result) const {
   BuildingOutcome outcome;
   outcome.is_passed_over = result.is_passed_over;
-  outcome.is_open = result.is_open;
+  outcome.is_open = result.is_open();
   outcome.is_done = options_.ends_at_reading ||
                     (options_.ends_at_solid ? result.solid.has_value() : result.is_done());
   outcome.has_features = result.segmentation && !result.segmentation->features.empty();

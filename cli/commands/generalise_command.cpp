@@ -243,7 +243,7 @@ class Generaliser final : public ProducingCommand {
 
   /// Nothing was drawn of it.
   static bool stays_open(const PipelineResult& line, const GeneralisedBuilding& drawn) {
-    return line.is_open && !drawn.repaired && !drawn.leads_group && !drawn.is_gone;
+    return line.is_open() && !drawn.repaired && !drawn.leads_group && !drawn.is_gone;
   }
 
   [[nodiscard]] GeneraliseOptions options_of(Timings& timings) const {

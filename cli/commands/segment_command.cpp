@@ -195,11 +195,11 @@ class Segmenter final : public VisitingCommand {
   /// Of an open building nothing: it has no tree, and `what` says so.
   [[nodiscard]] bool is_open(const Building& building, const PipelineResult& line,
                              const std::string& what) const {
-    if (line.is_open)
+    if (line.is_open())
       runner_.set_aside(building_issue(Severity::error, Code::E302, building.id,
                                        what + ": its polygons do not form a closed solid "
                                               "(--close any, or oriel repair, may make one)"));
-    return line.is_open;
+    return line.is_open();
   }
 
   [[nodiscard]] std::string paper_text(const Building& building, const PipelineResult& line) const {

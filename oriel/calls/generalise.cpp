@@ -531,8 +531,8 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
       "generalised", building,
       [&] {
         GeneralisedBuilding made =
-            result.is_open ? open_drawing(drawer, result, options.observer)
-                           : valid_drawing(drawer, result, Origin::input, options.observer);
+            result.is_open() ? open_drawing(drawer, result, options.observer)
+                             : valid_drawing(drawer, result, Origin::input, options.observer);
         drawn.is_given_up = is_given_up;
         if (is_given_up) return drawn;
         if (has_errors(made.issues)) made.levels.clear();

@@ -118,7 +118,7 @@ Repaired repair(const Document& document, const Building& building, PipelineResu
 
 Checked<LabelledBuilding> on_solid(const Document& document, const Building& building,
                                    const PipelineResult& result, const LabelledBuilding& labelled) {
-  if (result.is_open)
+  if (result.is_open())
     return {{},
             {building_issue(Severity::error, Code::G404, building.id,
                             "is open: its polygons are labelled unchanged")}};

@@ -96,7 +96,7 @@ class SeriesDrawer {
     LeveledBuilding one = logged(
         "drawn at all scales", building,
         [&] {
-          return result.is_open ? open_levels(building, result) : valid_levels(building, result);
+          return result.is_open() ? open_levels(building, result) : valid_levels(building, result);
         },
         [](const LeveledBuilding& made) {
           return fmt::format("levels={} issues={}", made.levels.size(), made.issues.size());

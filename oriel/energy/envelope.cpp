@@ -427,7 +427,7 @@ BuildingEnergy energy_of(const Building& building, const PipelineResult& result,
   out.lod = building.lod;
   if (!result.is_done() || !result.is_solid()) return out;
   out.is_known = true;
-  out.is_closed = !result.is_open;
+  out.is_closed = !result.is_open();
   EnvelopeSurvey envelope(result, rules, energy);
   envelope.survey(options, out);
   out.storeys = envelope.storeys_of_openings();

@@ -69,11 +69,11 @@ std::vector<Issue> open_up(const Building& building, const Tolerances& tolerance
     append(out.issues, std::move(supposed->issues));
     of_features.push_back(supposed_faces(building, supposed->faces));
     out.solid = std::move(supposed->solid);
-    out.is_supposed = true;
+    out.body = BodyKind::supposed_solid;
   } else if ((out.solid = open_shell(building, tolerances))) {
     continue_with("; features are taken from its rings, nothing is cut", out.issues);
+    out.body = BodyKind::open_shell;
   }
-  out.is_open = out.solid.has_value();
   return of_features;
 }
 

@@ -90,7 +90,7 @@ std::optional<PipelineResult> repair_and_retry(const Document& document, const B
   const Tolerances tolerances = repaired->tolerances;
   PipelineResult again =
       run_from_solid(std::move(*repaired), building, &rules, tolerances, options);
-  if (!again.is_done() || again.is_open) return std::nullopt;
+  if (!again.is_done() || again.is_open()) return std::nullopt;
   again.issues.push_back(repair_warning(building, again));
   return again;
 }
@@ -102,7 +102,7 @@ std::optional<PipelineResult> repair_open(const Document& document, const Buildi
   if (!solid) return std::nullopt;
   const Tolerances tolerances = solid->tolerances;
   PipelineResult again = run_from_solid(std::move(*solid), building, &rules, tolerances, options);
-  if (!again.is_done() || again.is_open) return std::nullopt;
+  if (!again.is_done() || again.is_open()) return std::nullopt;
   again.issues.push_back(mended_first(building, again.repair));
   return again;
 }

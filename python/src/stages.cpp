@@ -54,7 +54,7 @@ class RedrawnBuilding final : public MadeItem {
   [[nodiscard]] StlSolids solids() const override { return solids_; }
   [[nodiscard]] bool is_drawn() const {
     if (drawn_.leads_group || drawn_.is_gone) return drawn_.leads_group;
-    return labelled_->result().is_done() && (!labelled_->result().is_open || drawn_.repaired);
+    return labelled_->result().is_done() && (!labelled_->result().is_open() || drawn_.repaired);
   }
   void add_to(OutputRecord& output, std::vector<Issue>& /*issues*/) const override {
     if (is_drawn() || drawn_.is_gone) add(drawn_, output);
@@ -399,7 +399,7 @@ void bind_results(py::module_& module) {
           "is_done", [](const StageResult& r) { return r.result().is_done(); },
           "It came to its features; if not, `issues` has the error.")
       .def_property_readonly(
-          "is_open", [](const StageResult& r) { return r.result().is_open; },
+          "is_open", [](const StageResult& r) { return r.result().is_open(); },
           "The building stayed open: it has no solid.")
       .def_property_readonly(
           "names", [](const StageResult& r) { return names_of_features(r.result()); },

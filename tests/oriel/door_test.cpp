@@ -65,12 +65,12 @@ TEST_SUITE("oriel") {
     const PipelineResult closed = label(whole, residential()),
                          result = label(open, residential(), planar),
                          made = label(open, residential());
-    CHECK_FALSE(made.is_open);
+    CHECK_FALSE(made.is_open());
     CHECK(std::ranges::count(made.issues, Code::E316, &Issue::code) == 1);
     CHECK_FALSE(made.output.geometry.has_value());
     CHECK(generalise(records[0], open, made, residential(), at_scale(1000)).levels.size() == 1);
-    CHECK(result.is_open);
-    CHECK(result.is_supposed);
+    CHECK(result.is_open());
+    CHECK(result.body == BodyKind::supposed_solid);
     CHECK(std::ranges::count(result.issues, Code::E319, &Issue::code) == 1);
     REQUIRE(result.segmentation.has_value());  // what `segment --json` says
     CHECK(std::ranges::count(result.segmentation->issues, Code::E319, &Issue::code) == 1);
@@ -93,8 +93,8 @@ TEST_SUITE("oriel") {
     LabelOptions none;
     none.repair.close = Closing::none;
     const PipelineResult rings = label(open, residential(), none);
-    CHECK(rings.is_open);
-    CHECK_FALSE(rings.is_supposed);
+    CHECK(rings.is_open());
+    CHECK(rings.body == BodyKind::open_shell);
   }
 
   TEST_CASE("a drawing that nobody waits for is given up wherever it stands") {

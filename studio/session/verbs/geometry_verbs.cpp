@@ -164,7 +164,7 @@ StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
                    {"at_m", point_json(is_flat ? Vec3{} : box.min - origin_m)},
                    {"size_m", point_json(is_flat ? Vec3{} : box.max - box.min)},
                    {"issues", StudioJson::array()},
-                   {"is_open", open != nullptr && open->segmented.is_open}};
+                   {"is_open", open != nullptr && open->segmented.is_open()}};
   if (open != nullptr)
     for (const Issue& issue : open->segmented.issues)
       if (issue.severity != Severity::note) entry["issues"].push_back(issue_json(issue));

@@ -26,7 +26,7 @@ PipelineResult segmented(const Building& building, Order order) {
 /// The cells with their signs are the solid, in either order of cuts; of solids that do not run
 /// through themselves.
 void check_rebuilt(const PipelineResult& result) {
-  if (!result.is_done() || result.is_open) return;
+  if (!result.is_done() || result.is_open()) return;
   double sum = 0, size = 0;
   for (const Cell& cell : result.segmentation->cells) {
     sum += cell.sign * cell.volume_m3;
@@ -65,7 +65,7 @@ void trees(std::string_view input) {
     check_rebuilt(paper);
   }
   if (!body.is_valid) return;
-  promise(natural.is_done() && !natural.is_open, "a valid body is segmented");
+  promise(natural.is_done() && !natural.is_open(), "a valid body is segmented");
   for (const PipelineResult* result : {&natural, &paper})
     promise(is_solid_by_nef(*result->segmentation, *result->solid).value_or(true),
             "the tree is the solid to another judge");
