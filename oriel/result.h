@@ -36,28 +36,36 @@ enum class BodyKind {
   open_shell       ///< the facets that there are: it stayed open, and nothing was cut
 };
 
-/// All that is known of one building, as far as it came in the pipeline
-/// solidify → segment → describe → interpret.
-struct PipelineResult {
-  /// Missing: nothing could be made of the polygons, and `issues` says why.
-  std::optional<Solid> solid;
-  RepairReport repair;
-  /// What `solid` is, if it is there.
-  BodyKind body = BodyKind::solid;
+/// The features of a building with all that is known of them, or none.
+struct FoundFeatures {
   std::optional<Segmentation> segmentation;
-  /// Those it was cut with: fitted to its noise.
-  Tolerances tolerances;
   Description description;
   /// Empty without rules.
   Interpretation interpretation;
   /// Of the verdicts: those that were corrected, in feature order.
   std::vector<LabelCorrection> corrections;
-  /// With rules, also of a building that was rejected; no rows if describing failed.
+};
+
+/// What is known of the surfaces of a building: nothing without rules.
+struct FoundSurfaces {
+  /// Also of a building that was rejected; no rows if describing failed.
   SurfaceTable surfaces;
   /// What the surfaces are, where only their names were asked for; then `surfaces` is not complete.
   std::vector<SurfaceVerdict> named_surfaces;
   /// Found with them.
   std::optional<PolygonOwners> owners;
+};
+
+/// All that is known of one building, as far as it came in the pipeline
+/// solidify → segment → describe → interpret.
+struct PipelineResult : FoundFeatures, FoundSurfaces {
+  /// Missing: nothing could be made of the polygons, and `issues` says why.
+  std::optional<Solid> solid;
+  RepairReport repair;
+  /// What `solid` is, if it is there.
+  BodyKind body = BodyKind::solid;
+  /// Those it was cut with: fitted to its noise.
+  Tolerances tolerances;
   /// What write() takes: semantic surfaces, installations and attributes (docs/formats.md); made by
   /// label(). Of a building that was rejected its surfaces are named all the same. Without id if
   /// it was not made.

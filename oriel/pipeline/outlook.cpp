@@ -90,16 +90,9 @@ void add_to_surface(const SurfaceTable& table, std::size_t row, SemanticSurface&
 
 }  // namespace
 
-void look_around(const Building& building, const LabelOptions& options, PipelineResult& result) {
-  if (!options.neighbours) return;
-  result.surroundings = options.neighbours->of(building);
-  const auto& issues = result.surroundings->issues;
-  result.issues.insert(result.issues.end(), issues.begin(), issues.end());
-}
-
 void describe_outlook_of_features(const Segmentation& segmentation, const LabelOptions& options,
-                                  PipelineResult& result) {
-  if (!result.surroundings) return;
+                                  const std::optional<Neighbourhood>& around, FeatureTable& table) {
+  if (!around) return;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
     const Feature& feature = segmentation.features[i];
     if (feature.planes.empty()) continue;
@@ -107,19 +100,18 @@ void describe_outlook_of_features(const Segmentation& segmentation, const LabelO
     const Outline rectangle = rectangle_of(segmentation, feature, plane);
     WallOutlook of;
     const bool is_upright = std::abs(plane.normal.z) <= std::cos(kWallFrom_deg * kDegree_rad);
-    if (is_upright)
-      of.exposed = 1 - result.surroundings->covered_share(std::span(&rectangle, 1), plane.normal);
-    of.outlook = options.neighbours->outlook(*result.surroundings,
-                                             0.5 * (rectangle[0] + rectangle[2]), plane.normal);
-    set_outlook<FeatureTable, FeatureId, Attribute>(result.description.table,
-                                                    FeatureId{static_cast<int>(i)}, of, is_upright);
+    if (is_upright) of.exposed = 1 - around->covered_share(std::span(&rectangle, 1), plane.normal);
+    of.outlook =
+        options.neighbours->outlook(*around, 0.5 * (rectangle[0] + rectangle[2]), plane.normal);
+    set_outlook<FeatureTable, FeatureId, Attribute>(table, FeatureId{static_cast<int>(i)}, of,
+                                                    is_upright);
   }
 }
 
 void describe_outlook_of_surfaces(const Building& building, std::span<const int> rows,
-                                  const LabelOptions& options, const PipelineResult& result,
-                                  SurfaceTable& table) {
-  if (!result.surroundings) return;
+                                  const LabelOptions& options,
+                                  const std::optional<Neighbourhood>& around, SurfaceTable& table) {
+  if (!around) return;
   for (const int row : rows) {
     const auto inclination = table.number(at(row), SurfaceAttribute::inclination);
     const auto azimuth = table.number(at(row), SurfaceAttribute::azimuth);
@@ -129,9 +121,9 @@ void describe_outlook_of_surfaces(const Building& building, std::span<const int>
     if (outlines.empty() || outlines[0].size() < 3) continue;
     const Vec3 normal = normal_of(*inclination, *azimuth);
     WallOutlook of;
-    of.exposed = 1 - result.surroundings->covered_share(outlines, normal);
+    of.exposed = 1 - around->covered_share(outlines, normal);
     if (const auto middle = interior_point(outlines, normal))
-      of.outlook = options.neighbours->outlook(*result.surroundings, *middle, normal);
+      of.outlook = options.neighbours->outlook(*around, *middle, normal);
     set_outlook<SurfaceTable, std::size_t, SurfaceAttribute>(table, at(row), of, true);
   }
 }

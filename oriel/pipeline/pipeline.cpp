@@ -51,30 +51,28 @@ Issue supposed_faces(const Building& building, std::span<const Cap> faces) {
                                     sum, largest, agreeing(faces.size(), "it were", "they were")));
 }
 
-/// Goes on with a building that solidify found open: with the solid that it would be if the faces
-/// that are missing were there, if holes may be closed at all, else with the facets that there are.
-/// Returns what is to be said of the features that are found so.
-std::vector<Issue> open_up(const Building& building, const Tolerances& tolerances,
-                           const LabelOptions& options, PipelineResult& out) {
+/// What came of a building that solidify found open, to go on with: with the solid that it would be
+/// if the faces that are missing were there, if holes may be closed at all, else with the facets
+/// that there are. With a supposed solid the last issue is what is to be said of its features.
+PipelineResult opened(const Building& building, const LabelOptions& options, PipelineResult out) {
   const auto is_geometry = [](const Issue& issue) {
     return issue.severity != Severity::error || is_about_geometry(issue.code);
   };
-  if (!std::ranges::all_of(out.issues, is_geometry)) return {};
-  std::vector<Issue> of_features;
+  if (!std::ranges::all_of(out.issues, is_geometry)) return out;
   auto supposed = options.repair.close == Closing::none
                       ? std::nullopt
-                      : supposed_solid(building, tolerances, options.budget);
+                      : supposed_solid(building, out.tolerances, options.budget);
   if (supposed) {
     continue_with("; missing faces are assumed", out.issues);
     append(out.issues, std::move(supposed->issues));
-    of_features.push_back(supposed_faces(building, supposed->faces));
+    out.issues.push_back(supposed_faces(building, supposed->faces));
     out.solid = std::move(supposed->solid);
     out.body = BodyKind::supposed_solid;
-  } else if ((out.solid = open_shell(building, tolerances))) {
+  } else if ((out.solid = open_shell(building, out.tolerances))) {
     continue_with("; features are taken from its rings, nothing is cut", out.issues);
     out.body = BodyKind::open_shell;
   }
-  return of_features;
+  return out;
 }
 
 /// The building without what its input calls the polygons.
@@ -185,108 +183,126 @@ Solidified solid_with_installations(const Building& building, const Tolerances& 
 constexpr double kLeastOpening_m2 = 0.1;
 
 /// What was closed is no feature any more: E316 says of how many holes that may matter.
-void warn_of_closed_openings(PipelineResult& out) {
-  const auto count = std::ranges::count_if(out.repair.caps, [](const Cap& cap) {
+void warn_of_closed_openings(const std::vector<Cap>& caps, std::vector<Issue>& issues) {
+  const auto count = std::ranges::count_if(caps, [](const Cap& cap) {
     return cap.kind == CapKind::hole && cap.area_m2 >= kLeastOpening_m2;
   });
   if (count == 0) return;
-  for (Issue& issue : out.issues)
+  for (Issue& issue : issues)
     if (issue.code == Code::E316)
       issue.sentence += fmt::format(
           "; {} may be {}, which cannot be found once closed (--close none keeps holes open)",
-          count == std::ssize(out.repair.caps) ? std::string(agreeing(count, "it", "they"))
-                                               : fmt::format("{} of them", count),
+          count == std::ssize(caps) ? std::string(agreeing(count, "it", "they"))
+                                    : fmt::format("{} of them", count),
           agreeing(count, "an open window or door", "open windows or doors"));
 }
 
-/// Puts in what people say of the building's features.
-void correct_labels(const Building& building, const Corrections& corrections,
-                    const Segmentation& segmentation, PipelineResult& out) {
-  const auto features = placed_features(building, segmentation, out.description.table);
-  const auto corrected = corrections.find(building.id, features, out.issues);
-  for (const auto& [feature, correction] : corrected)
-    out.corrections.push_back({out.interpretation.verdicts.at(feature), correction->by,
-                               correction->why, correction->place});
-  correct(corrected, out.interpretation);
+/// With labels of the features: what the rules say, and what people say.
+Checked<FoundFeatures> named(const Building& building, const RuleBase& rules,
+                             const LabelOptions& options, Checked<FoundFeatures> found) {
+  try {
+    auto& [segmentation, description, interpretation, corrections] = found.value.value();
+    interpretation = measured(
+        options.observer, Stage::interpret, "interpreted", building,
+        [&] { return interpret(rules, description.table, description.graph); },
+        [](const Interpretation& made) {
+          const auto unknown = std::ranges::count_if(made.verdicts, &Name::empty, &Verdict::label);
+          return fmt::format("labelled={}", std::ssize(made.verdicts) - unknown);
+        });
+    append(found.issues, interpretation.issues);
+    if (!options.corrections) return found;
+    const auto features = placed_features(building, *segmentation, description.table);
+    const auto corrected = options.corrections->find(building.id, features, found.issues);
+    for (const auto& [feature, correction] : corrected)
+      corrections.push_back({interpretation.verdicts.at(feature), correction->by, correction->why,
+                             correction->place});
+    correct(corrected, interpretation);
+  } catch (const std::exception& fault) {
+    found.value.reset();
+    found.issues.push_back(own_fault(building, fault));
+  }
+  return found;
 }
 
-/// Names the features of a building that was segmented and described.
-void name_features(const Building& building, const RuleBase& rules,
-                   const Segmentation& segmentation, const LabelOptions& options,
-                   PipelineResult& out) {
-  out.interpretation = measured(
-      options.observer, Stage::interpret, "interpreted", building,
-      [&] { return interpret(rules, out.description.table, out.description.graph); },
-      [](const Interpretation& found) {
-        return fmt::format("labelled={}",
-                           std::ranges::count_if(found.verdicts, [](const Verdict& verdict) {
-                             return !verdict.label.empty();
-                           }));
-      });
-  append(out.issues, out.interpretation.issues);
-  if (options.corrections) correct_labels(building, *options.corrections, segmentation, out);
+/// What the stages between the solid and the surfaces find.
+Checked<FoundFeatures> find_features(const Building& building, const RuleBase* rules,
+                                     const LabelOptions& options, const PipelineResult& so_far) {
+  Checked<FoundFeatures> found{FoundFeatures{}, so_far.issues};
+  try {
+    Segmentation& segmentation = found.value->segmentation.emplace(measured(
+        options.observer, Stage::segment, "segmented", building,
+        [&] { return all_features(building, so_far, segment_options(options, so_far.tolerances)); },
+        [](const Segmentation& made) { return fmt::format("features={}", made.features.size()); }));
+    append(found.issues, segmentation.issues);
+    if (so_far.body == BodyKind::supposed_solid)
+      segmentation.issues.insert(segmentation.issues.begin(), so_far.issues.back());
+    Description& description = found.value->description = measured(
+        options.observer, Stage::describe, "described", building,
+        [&] { return describe(building, segmentation, describe_options(rules, options)); },
+        [](const Description& made) { return fmt::format("features={}", made.table.rows()); });
+    append(found.issues, description.issues);
+    describe_outlook_of_features(segmentation, options, so_far.surroundings, description.table);
+  } catch (const std::exception& fault) {
+    found.value.reset();
+    found.issues.push_back(own_fault(building, fault));
+  }
+  if (rules == nullptr || !found.value) return found;
+  return named(building, *rules, options, std::move(found));
 }
 
-/// Fills what stands between the solid and the surfaces.
-void find_features(const Building& building, const RuleBase* rules, const Tolerances& tolerances,
-                   const LabelOptions& options, PipelineResult& out) {
-  const StageObserver& observer = options.observer;
-  warn_of_closed_openings(out);
-  std::vector<Issue> of_features;
-  if (!out.solid)
-    of_features = measure(observer, Stage::solidify,
-                          [&] { return open_up(building, tolerances, options, out); });
-  if (!out.solid) return;
-  Segmentation segmentation = measured(
-      observer, Stage::segment, "segmented", building,
-      [&] { return all_features(building, out, segment_options(options, tolerances)); },
-      [](const Segmentation& found) { return fmt::format("features={}", found.features.size()); });
-  segmentation.issues.insert(segmentation.issues.begin(), of_features.begin(), of_features.end());
-  append(out.issues, segmentation.issues);
-  out.description = measured(
-      observer, Stage::describe, "described", building,
-      [&] { return describe(building, segmentation, describe_options(rules, options)); },
-      [](const Description& found) { return fmt::format("features={}", found.table.rows()); });
-  append(out.issues, out.description.issues);
-  describe_outlook_of_features(segmentation, options, out);
-  if (rules != nullptr) name_features(building, *rules, segmentation, options, out);
-  out.segmentation = std::move(segmentation);
+PipelineResult with(Checked<FoundFeatures> found, PipelineResult out) {
+  static_cast<FoundFeatures&>(out) = std::move(found.value).value_or(FoundFeatures{});
+  out.issues = std::move(found.issues);
+  return out;
 }
 
-/// Features are there with their attributes and labels, or not at all.
-void drop_features(const Building& building, const std::exception& fault, PipelineResult& out) {
-  out.description = {};
-  out.interpretation = {};
-  out.corrections.clear();
-  out.issues.push_back(own_fault(building, fault));
+/// With all that comes before the surfaces.
+PipelineResult with_features(const Building& building, const RuleBase* rules,
+                             const LabelOptions& options, PipelineResult out) {
+  try {
+    warn_of_closed_openings(out.repair.caps, out.issues);
+    if (!out.solid)
+      out = measure(options.observer, Stage::solidify,
+                    [&] { return opened(building, options, out); });
+    if (!out.solid) return out;
+  } catch (const std::exception& fault) {
+    out.issues.push_back(own_fault(building, fault));
+    return out;
+  }
+  auto found = find_features(building, rules, options, out);
+  return with(std::move(found), std::move(out));
 }
 
 /// Gives the polygons that a result names other numbers.
-void renumber(const std::vector<int>& number_of, PipelineResult& out) {
-  const auto renumbered = [&](int polygon) {
-    return polygon < 0 ? polygon : number_of[at(polygon)];
-  };
-  const auto renumber_all = [&](std::vector<int>& polygons) {
-    std::ranges::transform(polygons, polygons.begin(), renumbered);
+PipelineResult renumbered(const std::vector<int>& number_of, PipelineResult out) {
+  const auto number = [&](int polygon) { return polygon < 0 ? polygon : number_of[at(polygon)]; };
+  const auto renumber = [&](std::vector<int>& polygons) {
+    std::ranges::transform(polygons, polygons.begin(), number);
     std::ranges::sort(polygons);
   };
   for (auto* polygons : {&out.repair.duplicates, &out.repair.dangling, &out.repair.inner})
-    renumber_all(*polygons);
-  for (OpenEdge& edge : out.repair.open_edges) edge.polygon = renumbered(edge.polygon);
+    renumber(*polygons);
+  for (OpenEdge& edge : out.repair.open_edges) edge.polygon = number(edge.polygon);
   if (out.solid)
-    for (Facet& facet : out.solid->facets) renumber_all(facet.polygons);
-  if (!out.segmentation) return;
+    for (Facet& facet : out.solid->facets) renumber(facet.polygons);
+  if (!out.segmentation) return out;
   for (Cell& cell : out.segmentation->cells)
-    for (Facet& facet : cell.facets) renumber_all(facet.polygons);
-  for (Feature& feature : out.segmentation->features) renumber_all(feature.source_polygons);
+    for (Facet& facet : cell.facets) renumber(facet.polygons);
+  for (Feature& feature : out.segmentation->features) renumber(feature.source_polygons);
+  return out;
 }
 
-void find_surfaces(const Building& building, const RuleBase& rules, const LabelOptions& options,
-                   PipelineResult& out) {
-  if (options.measures_surfaces)
-    describe_all_surfaces(building, out.tolerances, options, out);
-  else
-    name_surfaces(building, out.tolerances, rules, options, out);
+PipelineResult with_surfaces(const Building& building, const RuleBase& rules,
+                             const LabelOptions& options, PipelineResult out) {
+  try {
+    static_cast<FoundSurfaces&>(out) = options.measures_surfaces
+                                           ? describe_all_surfaces(building, options, out)
+                                           : name_surfaces(building, rules, options, out);
+  } catch (const std::exception& fault) {
+    out.segmentation.reset();  // nothing is drawn or counted of it
+    out.issues.push_back(own_fault(building, fault));
+  }
+  return out;
 }
 
 PipelineResult make_solid(const CanonicalOrder& order, const Tolerances& tolerances,
@@ -300,10 +316,10 @@ PipelineResult make_solid(const CanonicalOrder& order, const Tolerances& toleran
           return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
                              made.issues.size());
         });
-    append(out.issues, std::move(solid.issues));
+    out.issues = std::move(solid.issues);
     out.repair = std::move(solid.report);
     out.solid = std::move(solid.value);
-    renumber(order.to_reading, out);
+    out = renumbered(order.to_reading, std::move(out));
   } catch (const std::exception& fault) {
     out.issues.push_back(own_fault(order.building, fault));
   }
@@ -313,22 +329,20 @@ PipelineResult make_solid(const CanonicalOrder& order, const Tolerances& toleran
 PipelineResult go_on(PipelineResult out, const Building& building, const CanonicalOrder& order,
                      const RuleBase* rules, const Tolerances& tolerances,
                      const LabelOptions& options) {
-  look_around(building, options, out);
-  if (std::ranges::none_of(out.issues, is_own_fault)) {
-    renumber(order.from_reading, out);
-    try {
-      if (options.ignores_semantics)
-        find_features(without_hints(order.building), rules, tolerances, options, out);
-      else
-        find_features(order.building, rules, tolerances, options, out);
-    } catch (const std::exception& fault) {
-      drop_features(building, fault, out);
-    }
-    renumber(order.to_reading, out);
-  }
   out.tolerances = tolerances;
-  if (rules != nullptr) find_surfaces(building, *rules, options, out);
-  return out;
+  if (options.neighbours) {
+    out.surroundings = options.neighbours->of(building);
+    append(out.issues, out.surroundings->issues);
+  }
+  if (std::ranges::none_of(out.issues, is_own_fault)) {
+    out = renumbered(order.from_reading, std::move(out));
+    out = options.ignores_semantics
+              ? with_features(without_hints(order.building), rules, options, std::move(out))
+              : with_features(order.building, rules, options, std::move(out));
+    out = renumbered(order.to_reading, std::move(out));
+  }
+  if (rules == nullptr) return out;
+  return with_surfaces(building, *rules, options, std::move(out));
 }
 
 }  // namespace
@@ -366,15 +380,12 @@ PipelineResult run_from_solid(PipelineResult out, const Building& building, cons
 PipelineResult name_segmented(const Building& building, PipelineResult segmented,
                               const RuleBase& rules, const LabelOptions& options) {
   if (segmented.is_done()) {
-    try {
-      name_features(building, rules, *segmented.segmentation, options, segmented);
-    } catch (const std::exception& fault) {
-      segmented.segmentation.reset();
-      drop_features(building, fault, segmented);
-    }
+    Checked<FoundFeatures> found{std::move(static_cast<FoundFeatures&>(segmented)),
+                                 segmented.issues};
+    found = named(building, rules, options, std::move(found));
+    segmented = with(std::move(found), std::move(segmented));
   }
-  find_surfaces(building, rules, options, segmented);
-  return segmented;
+  return with_surfaces(building, rules, options, std::move(segmented));
 }
 
 PipelineResult run_pipeline(const Building& building, const RuleBase* rules,

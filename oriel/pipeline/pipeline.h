@@ -58,13 +58,13 @@ PipelineResult run_pipeline(const Building& building, const RuleBase* rules,
 PipelineResult name_segmented(const Building& building, PipelineResult segmented,
                               const RuleBase& rules, const LabelOptions& options);
 
-/// Fills result.surfaces, whether the building came to the end or not. A fault of ours is E901.
-void describe_all_surfaces(const Building& building, const Tolerances& tolerances,
-                           const LabelOptions& options, PipelineResult& result);
+/// All surfaces of a building, whether it came to its features or not.
+FoundSurfaces describe_all_surfaces(const Building& building, const LabelOptions& options,
+                                    const PipelineResult& result);
 
-/// Fills result.surfaces as far as its surfaces cannot be named without, and names them.
-void name_surfaces(const Building& building, const Tolerances& tolerances, const RuleBase& rules,
-                   const LabelOptions& options, PipelineResult& result);
+/// As much of them as they cannot be named without, and their names.
+FoundSurfaces name_surfaces(const Building& building, const RuleBase& rules,
+                            const LabelOptions& options, const PipelineResult& result);
 
 /// Reports an exception as own_fault does. An OutputError, which is no fault of the building, is
 /// thrown on.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -47,52 +46,44 @@ class MeasuredWhenAsked : public MoreAttributes {
   std::size_t done_ = 0;
 };
 
-/// Runs `describe`, which returns the number of surfaces; what it throws is a fault of ours in this
-/// building, which is rejected.
-template <class Describe>
-void measured_describe(const Building& building, const StageObserver& observer,
-                       PipelineResult& result, const char* done, Describe describe) {
-  try {
-    measured(observer, Stage::describe, done, building, describe,
-             [](std::size_t surfaces) { return fmt::format("surfaces={}", surfaces); });
-  } catch (const std::exception& fault) {
-    result.segmentation.reset();  // nothing is drawn or counted of it
-    result.issues.push_back(own_fault(building, fault));
-  }
-}
-
 }  // namespace
 
-void describe_all_surfaces(const Building& building, const Tolerances& tolerances,
-                           const LabelOptions& options, PipelineResult& result) {
-  measured_describe(building, options.observer, result, "described surfaces", [&] {
-    SurfaceTable table = describe_surfaces(building, tolerances, context_of(result));
-    std::vector<int> rows(table.rows());
-    std::iota(rows.begin(), rows.end(), 0);
-    describe_outlook_of_surfaces(building, rows, options, result, table);
-    result.surfaces = std::move(table);
-    return result.surfaces.rows();
-  });
+FoundSurfaces describe_all_surfaces(const Building& building, const LabelOptions& options,
+                                    const PipelineResult& result) {
+  return measured(
+      options.observer, Stage::describe, "described surfaces", building,
+      [&] {
+        FoundSurfaces found{
+            describe_surfaces(building, result.tolerances, context_of(result)), {}, {}};
+        std::vector<int> rows(found.surfaces.rows());
+        std::iota(rows.begin(), rows.end(), 0);
+        describe_outlook_of_surfaces(building, rows, options, result.surroundings, found.surfaces);
+        return found;
+      },
+      [](const FoundSurfaces& found) { return fmt::format("surfaces={}", found.surfaces.rows()); });
 }
 
-void name_surfaces(const Building& building, const Tolerances& tolerances, const RuleBase& rules,
-                   const LabelOptions& options, PipelineResult& result) {
+FoundSurfaces name_surfaces(const Building& building, const RuleBase& rules,
+                            const LabelOptions& options, const PipelineResult& result) {
   static const Segmentation none;
-  const Segmentation& segmentation = result.segmentation ? *result.segmentation : none;
-  measured_describe(building, options.observer, result, "named surfaces", [&] {
-    const PolygonOwners& owners = result.owners.emplace(polygon_owners(segmentation, building));
-    const auto rows = rows_to_name(building, owners, result.interpretation, rules);
-    SurfaceContext context = context_of(result);
-    context.owners = &owners;
-    SurfaceSurvey survey(building, tolerances, context, rows);
-    SurfaceTable& table = survey.table();
-    describe_outlook_of_surfaces(building, rows, options, result, table);
-    table = with_parts(std::move(table), building, owners, result.interpretation, rules, rows);
-    MeasuredWhenAsked more(survey);
-    result.named_surfaces = interpret_surfaces(rules, table, rows, more);
-    result.surfaces = std::move(table);
-    return rows.size();
-  });
+  std::vector<int> rows;
+  return measured(
+      options.observer, Stage::describe, "named surfaces", building,
+      [&] {
+        const Segmentation& segmentation = result.segmentation ? *result.segmentation : none;
+        PolygonOwners owners = polygon_owners(segmentation, building);
+        rows = rows_to_name(building, owners, result.interpretation, rules);
+        SurfaceContext context = context_of(result);
+        context.owners = &owners;
+        SurfaceSurvey survey(building, result.tolerances, context, rows);
+        SurfaceTable& table = survey.table();
+        describe_outlook_of_surfaces(building, rows, options, result.surroundings, table);
+        table = with_parts(std::move(table), building, owners, result.interpretation, rules, rows);
+        MeasuredWhenAsked more(survey);
+        auto named = interpret_surfaces(rules, table, rows, more);
+        return FoundSurfaces{std::move(table), std::move(named), std::move(owners)};
+      },
+      [&](const FoundSurfaces& /*found*/) { return fmt::format("surfaces={}", rows.size()); });
 }
 
 }  // namespace oriel
