@@ -77,7 +77,7 @@ LearningSet::LearningSet(const rules::Pack& pack, std::span<const Sample> sample
       samples_(samples),
       objective_(std::move(objective)),
       for_each_(for_each),
-      is_given_up_(std::move(is_given_up)),
+      is_given_up_(for_good(std::move(is_given_up))),
       turns_(pack.params.size()),
       affected_(pack.params.size()),
       known_(samples.size()) {

@@ -85,7 +85,7 @@ class LearningSet {
   std::span<const Sample> samples_;
   Objective objective_;
   const ForEachShare& for_each_;
-  GivenUp is_given_up_;
+  IsGivenUp is_given_up_;
   LabelSet labels_;
   std::vector<int> label_of_class_;
   std::vector<std::size_t> params_;

@@ -177,7 +177,7 @@ class Proposer {
         samples_(samples),
         parts_(parts),
         options_(options),
-        is_given_up_(is_given_up),
+        is_given_up_(for_good(is_given_up)),
         for_each_([this, &for_each](std::size_t count, const auto& work) {
           for_each(count, [&](std::size_t i) {
             if (!is_given_up_()) work(i);
@@ -343,7 +343,7 @@ class Proposer {
   std::span<const Sample> samples_;
   std::span<const SamplePart> parts_;
   const ProposeOptions& options_;
-  GivenUp is_given_up_;
+  IsGivenUp is_given_up_;
   /// Leaves out shares that have not begun when it is given up.
   ForEachShare for_each_;
   LabelSet labels_;

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace oriel {
@@ -22,18 +23,11 @@ inline void for_each_in_turn(std::size_t count, const std::function<void(std::si
 using IsGivenUp = std::function<bool()>;
 
 /// Asks that until it was true once: what was given up stays so.
-class GivenUp {
- public:
-  explicit GivenUp(IsGivenUp ask) : ask_(std::move(ask)) {}
-
-  bool operator()() const {
-    if (!was_ && ask_ && ask_()) was_ = true;
-    return was_;
-  }
-
- private:
-  IsGivenUp ask_;
-  mutable std::atomic<bool> was_ = false;
-};
+inline IsGivenUp for_good(IsGivenUp ask) {
+  return [ask = std::move(ask), was = std::make_shared<std::atomic<bool>>(false)] {
+    if (!*was && ask && ask()) *was = true;
+    return was->load();
+  };
+}
 
 }  // namespace oriel
