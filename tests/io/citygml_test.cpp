@@ -541,11 +541,11 @@ TEST_SUITE("io") {
     Input input(folder.write("a.gml", text));
     const TextName name{"a.gml", 0};
     detail::CityGmlStream stream(input, name);
-    std::size_t count = 0;
+    std::size_t count = 0, place = 0;
     while (const auto member = stream.next()) {
       ++count;
       // What was read in advance is two of the input's chunks at most.
-      const std::size_t place = text.find(fmt::format("gml:id=\"{}\"", member->id()));
+      place = text.find(fmt::format("gml:id=\"{}\"", member->id()), place);
       CHECK(input.bytes_read() < place + 600'000);
     }
     CHECK(count == 2000);

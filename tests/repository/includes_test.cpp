@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -104,11 +104,12 @@ std::string home_of(const std::string& path) {
 /// What a file includes, between quotes or angles.
 std::set<std::string> includes_of(const fs::path& path) {
   std::set<std::string> included;
-  const std::regex line("^#include [\"<]([^\">]+)[\">].*");
+  constexpr std::string_view kInclude = "#include ";
   std::ifstream file(path);
-  std::smatch match;
-  for (std::string text; std::getline(file, text);)
-    if (std::regex_match(text, match, line)) included.insert(match[1]);
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with(kInclude))
+      included.insert(
+          line.substr(kInclude.size() + 1, line.find_last_of("\">") - kInclude.size() - 1));
   return included;
 }
 

@@ -66,8 +66,11 @@ std::string anchor_of(const std::string& heading) {
   return out;
 }
 
-std::set<std::string> anchors_of(const fs::path& page) {
-  std::set<std::string> anchors;
+const std::set<std::string>& anchors_of(const fs::path& page) {
+  static std::map<std::string, std::set<std::string>> of_pages;
+  const auto [known, is_new] = of_pages.try_emplace(fs::canonical(page).string());
+  std::set<std::string>& anchors = known->second;
+  if (!is_new) return anchors;
   const std::string text = without_blocks(page_text(page));
   const std::regex heading("(^|\n)#+ ([^\n]*)");
   for (std::sregex_iterator match(text.begin(), text.end(), heading), end; match != end; ++match)

@@ -30,7 +30,7 @@ constexpr std::pair<const char*, const char*> kRepeated[] = {
 };
 
 /// Every so many-th call of a function fails, of each command others; with ORIEL_SLOW all do.
-constexpr long kCallStep = 4;
+constexpr long kCallStep = 8;
 
 long call_step() { return std::getenv("ORIEL_SLOW") != nullptr ? 1 : kCallStep; }
 

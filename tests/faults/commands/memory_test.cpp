@@ -10,7 +10,7 @@ namespace {
 
 /// Every so many-th place that asks for memory is refused it, of each command others; with
 /// ORIEL_SLOW all are.
-constexpr std::size_t kMemoryStep = 128;
+constexpr std::size_t kMemoryStep = 256;
 
 }  // namespace
 
