@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-examples/install_packages.sh dpkg-dev file gdal-bin help2man lintian
+examples/install_packages.sh dpkg-dev file gdal-bin help2man
 # Pages are tested in a browser: what is there already, from Debian or elsewhere, is taken; without one these tests are skipped.
 browser=()
 for program in chromium node npm; do command -v $program >/dev/null || browser+=("$program"); done

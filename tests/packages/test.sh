@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # test.sh BUILD
-# Packs the build tree BUILD by `cpack -G DEB`, looks at what the packages hold and need, has lintian judge them where it is
-# installed, and labels a sample with what they install. Says `skipped` (exit code 77) where a tool is missing.
-# first_label.sh, beside it, installs them into a bare Debian.
+# Packs the build tree BUILD by `cpack -G DEB`, looks at what the packages hold and need, and labels a sample with what they install.
+# Says `skipped` (exit code 77) where a tool is missing. examples/make_deb.sh has lintian judge them; first_label.sh, beside this,
+# installs them into a bare Debian.
 set -euo pipefail
 build=$(realpath "$1")
 
@@ -86,11 +86,3 @@ house=$root/usr/share/oriel/samples/house.stripped.city.json
 grep -q '  chimney  ' "$work/labels" || { cat "$work/labels" >&2; fail "the chimney of the sample has no label"; }
 "$root/usr/bin/oriel-generate" -o "$work/houses"
 [ -f "$work/houses/house.stripped.city.json" ] || fail "no house was made"
-
-if command -v lintian >/dev/null; then
-  flags=()
-  if [ "$(id -u)" -eq 0 ]; then flags=(--allow-root); fi
-  lintian "${flags[@]}" --suppress-tags uses-no-compression-for-data-tarball --fail-on error,warning "$work"/*.deb
-else
-  echo "lintian is not installed: the packages were not judged by it"
-fi
