@@ -7,7 +7,7 @@ set -euo pipefail
 packages=(
   cmake g++ ninja-build
   libcgal-dev libopenmesh-dev libboost-dev libgmp-dev libmpfr-dev
-  libyaml-cpp-dev libspdlog-dev libfmt-dev libcli11-dev libsimdjson-dev libexpat1-dev libproj-dev libsqlite3-dev zlib1g-dev libmeshoptimizer-dev nlohmann-json3-dev libutfcpp-dev libtbb-dev libmimalloc-dev nettle-dev libnlopt-cxx-dev
+  libyaml-cpp-dev libspdlog-dev libfmt-dev libcli11-dev libsimdjson-dev libexpat1-dev libproj-dev libsqlite3-dev zlib1g-dev libmeshoptimizer-dev nlohmann-json3-dev libutfcpp-dev libtbb-dev libmimalloc-dev nettle-dev libnlopt-cxx-dev libcairo2-dev libpolyclipping-dev fonts-dejavu-core
 )
 if [ "${1:-}" = --build ]; then
   shift

@@ -3,9 +3,11 @@
 #include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/commands/view_picture.h"
 #include "cli/terminal/logging.h"
 #include "io/cityjson/carried_labels.h"
 #include "io/files/output_file.h"
+#include "kernel/base/text/counted.h"
 #include "studio/server/page_files.h"
 #include "studio/session/recording.h"
 
@@ -28,6 +30,7 @@ constexpr std::size_t kMostOfAPage = 2000;
 struct ViewArguments : RunOptions, RulesChoice {
   std::string out;
   std::string after;
+  PictureArguments picture;
 };
 
 [[noreturn]] void refuse(Code code, const std::string& file, std::string sentence) {
@@ -98,8 +101,9 @@ void check_page_name(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending.empty() || ending == ".html" || ending == ".htm" || path == "-") return;
   throw CLI::ValidationError(
-      "-o",
-      fmt::format("an HTML page is written, and '{}' ends in {}: end it in .html", path, ending));
+      "-o", fmt::format("a page or picture is written, and '{}' ends in {}: end it in .html, .png, "
+                        ".svg or .pdf",
+                        path, ending));
 }
 
 /// One HTML file that shows a recording and loads nothing: the page of the studio without its
@@ -112,14 +116,47 @@ std::string page_of(const studio::Recording& recording) {
   return whole.append(recording.json()).append(page.substr(at + kMark.size()));
 }
 
+/// Labels the buildings and writes a picture of them.
+ExitCode draw(const ViewArguments& arguments, const RuleBase& rules, PictureFormat format,
+              Report& report) {
+  BatchRunner runner(arguments, &rules, report);
+  PanelGatherer gatherer(arguments.picture, rules, arguments.label_options());
+  std::map<std::string, int> counts;
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
+    if (!runner.is_last_run()) return;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].is_passed_over) continue;
+      for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
+      gatherer.add(document, document.buildings[i], lines[i]);
+    }
+  });
+  const ExitCode code = runner.run(visitor);
+  runner.report_summary("shown", counts);
+  const auto panels = gatherer.panels();
+  if (panels.empty()) {
+    if (code == ExitCode::input) return code;
+    refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
+  }
+  if (gatherer.left_out() > 0)
+    run_log().info("--grid {} has no room for {}", arguments.picture.grid,
+                   counted(gatherer.left_out(), "more building"));
+  Checked<std::string> made = picture(panels, format, arguments.picture.options);
+  if (!made.value) throw InputError(std::move(made.issues.front()));
+  write_file(arguments.out, *made.value);
+  return code;
+}
+
 ExitCode work(ViewArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
   check_names(arguments);
-  check_page_name(arguments.out);
+  const auto format = picture_format(arguments.out);
+  settle(arguments.picture, format.has_value());
+  if (!format) check_page_name(arguments.out);
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   find_neighbours(arguments, report);
+  if (format) return draw(arguments, *rules, *format, report);
   studio::Recording recording(*rules);
   std::vector<std::string> ids;
   ExitCode code = record(arguments, *rules, report, recording, ids, false);
@@ -153,11 +190,14 @@ void add_view(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = app.add_subcommand(
       "view",
-      "Write an HTML page that shows buildings; a click on a part shows its label and the reason");
+      "Write a picture of buildings, or an HTML page: a click on a part shows its label and the "
+      "reason");
   add_line_arguments(*command, *arguments, true);
   add_rules_arguments(*command, *arguments);
   add_neighbours_argument(*command, arguments->neighbours_of);
-  command->add_option("-o,--output", arguments->out, "HTML file to write, or - for stdout")
+  command
+      ->add_option("-o,--output", arguments->out,
+                   "HTML, PNG, SVG or PDF file to write, or - for a page on stdout")
       ->required();
   command->add_option(
       "--after", arguments->after,
@@ -165,8 +205,11 @@ void add_view(CLI::App& app, Action& action) {
   command->footer(
       "The page needs no other file and loads nothing; page.html#ID opens it at a feature.\n"
       "Example:\n  oriel view house.city.json -o house.html\n"
+      "  oriel view house.city.json -o house.png\n"
+      "  oriel view house.city.json --scales 1:1000,1:2500,1:5000 --facade south -o scales.svg\n"
       "  oriel generalise house.city.json --scale 1:2500 -o small.city.json\n"
       "  oriel view house.city.json --after small.city.json -o house.html");
+  add_picture_arguments(*command, arguments->picture);
   arguments->joins_installations = true;
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }

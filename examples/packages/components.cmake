@@ -29,6 +29,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_ORIEL_PACKAGE_NAME oriel)
 set(CPACK_DEBIAN_ORIEL_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_ORIEL_PACKAGE_SHLIBDEPS ON)
+# Opened when a picture is drawn.
+set(CPACK_DEBIAN_ORIEL_PACKAGE_RECOMMENDS "libcairo2, fonts-dejavu-core")
 set(CPACK_DEBIAN_ORIEL_PACKAGE_SUGGESTS "oriel-doc, liboriel-dev")
 set(CPACK_DEBIAN_ORIEL_DESCRIPTION "find and name the parts of 3D buildings, redraw them for a scale
 oriel cuts closed 3D buildings into their parts, names them by rules that
@@ -48,7 +50,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME liboriel-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
        libboost-dev libcgal-dev libexpat1-dev libproj-dev libfmt-dev libgmp-dev libmeshoptimizer-dev libmpfr-dev libnlopt-cxx-dev libopenmesh-dev
-       libsimdjson-dev libspdlog-dev libsqlite3-dev libyaml-cpp-dev nettle-dev nlohmann-json3-dev zlib1g-dev)
+       libpolyclipping-dev libsimdjson-dev libspdlog-dev libsqlite3-dev libyaml-cpp-dev nettle-dev nlohmann-json3-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "oriel-doc")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "library to label and generalise 3D buildings (development files)
 oriel cuts closed 3D buildings into their parts, names them by rules and
@@ -76,6 +78,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-oriel)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${ORIEL_PYTHON_MINOR}~), python3 (<< 3.${next_python}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libcairo2, fonts-dejavu-core")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "oriel-doc, python3-matplotlib, python3-pandas")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "find and name the parts of 3D buildings from Python
 oriel cuts closed 3D buildings into their parts, names them by rules and

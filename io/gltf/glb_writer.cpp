@@ -1,6 +1,7 @@
 #include "io/gltf/glb_writer.h"
 
 #include "io/gltf/glb_buffers.h"
+#include "io/mesh/label_colours.h"
 #include "model/version.h"
 
 #include <algorithm>
@@ -127,66 +128,8 @@ ordered_json structural_metadata(const std::vector<FlatFeature>& features,
   return {{"schema", schema(labels, surfaces)}, {"propertyTables", ordered_json::array({table})}};
 }
 
-/// Red, green and blue as screens have them (sRGB).
-using Colour = std::array<std::uint8_t, 3>;
-
 /// The opacity of what nothing shines through.
 constexpr std::uint8_t kOpaque = 255;
-
-constexpr std::array<Colour, 16> kLabelColours{{{0x0e, 0x75, 0xbd},
-                                                {0x83, 0x44, 0x17},
-                                                {0xc1, 0x2c, 0x71},
-                                                {0x5b, 0x25, 0x35},
-                                                {0xd6, 0x8a, 0x02},
-                                                {0x70, 0x7c, 0x25},
-                                                {0x12, 0x9c, 0x93},
-                                                {0x4f, 0x41, 0x9d},
-                                                {0xdf, 0xc4, 0x32},
-                                                {0x39, 0x53, 0x54},
-                                                {0x79, 0xb8, 0xe8},
-                                                {0x9a, 0x7d, 0x61},
-                                                {0xc1, 0x99, 0x87},
-                                                {0xa9, 0x79, 0xf7},
-                                                {0xa7, 0xcc, 0x7e},
-                                                {0xe3, 0x4e, 0x8e}}};
-
-constexpr std::array<std::pair<std::string_view, std::size_t>, 21> kUsual{
-    {{"window", 0},    {"door", 1},    {"dormer", 2},  {"chimney", 3},      {"balcony", 4},
-     {"stairs", 5},    {"canopy", 6},  {"railing", 7}, {"ledge", 8},        {"antenna", 9},
-     {"skylight", 10}, {"garage", 11}, {"bay", 12},    {"bay window", 12},  {"oriel", 13},
-     {"parapet", 14},  {"loggia", 15}, {"vent", 9},    {"solar panel", 10}, {"column", 11},
-     {"terrace", 14}}};
-
-constexpr Colour kWall{0xe7, 0xe2, 0xd8}, kRoof{0xcf, 0xc6, 0xb8}, kGround{0x8c, 0x86, 0x7c},
-    kOther{0xb8, 0xb2, 0xa6};
-
-/// The colour of a label: that of the usual ones is the same as in the studio
-/// (studio/page/src/scene/palette.json), of others one of the same colours, by the label's letters.
-Colour colour_of_label(std::string_view label) {
-  if (label == "wall") return kWall;
-  if (label == "roof") return kRoof;
-  if (label == "ground") return kGround;
-  if (label.empty() || label == "unlabelled") return kOther;
-  std::string word(label);
-  std::ranges::replace(word, '_', ' ');
-  const auto* const usual = std::ranges::find(kUsual, std::string_view(word),
-                                              &std::pair<std::string_view, std::size_t>::first);
-  if (usual != kUsual.end()) return kLabelColours[usual->second];
-  std::uint32_t sum = 2166136261;  // FNV-1a
-  for (const char c : label) sum = (sum ^ static_cast<unsigned char>(c)) * 16777619;
-  return kLabelColours[sum % kLabelColours.size()];
-}
-
-/// The colour of a type of surface: "WallSurface", "RoofSurface", "GroundSurface", "Window",
-/// "Door".
-Colour colour_of_surface(std::string_view surface) {
-  if (surface == "WallSurface") return kWall;
-  if (surface == "RoofSurface") return {0xb5, 0x4a, 0x3a};
-  if (surface == "GroundSurface") return kGround;
-  if (surface == "Window") return kLabelColours[0];
-  if (surface == "Door") return kLabelColours[1];
-  return kOther;
-}
 
 /// The same as glTF has colours of vertices: linear, with an opacity.
 std::array<std::uint8_t, 4> linear(Colour colour, std::uint8_t opacity = kOpaque) {

@@ -66,6 +66,8 @@
   X(E167, 0, "STL syntax") \
   X(E168, 0, "Objects that a format has no place for") \
   X(E169, 0, "No materials") \
+  X(E170, 0, "No facade on that side") \
+  X(E171, 0, "No pictures in this build") \
   X(E175, 0, "Buildings that overlap") \
   X(E176, 0, "A building inside another") \
   X(E177, 0, "Neighbours in another reference system") \

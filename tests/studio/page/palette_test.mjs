@@ -7,7 +7,7 @@ import path from 'node:path';
 import {fileURLToPath} from 'node:url';
 
 const page = path.join(path.dirname(fileURLToPath(import.meta.url)), '../../../studio/page');
-const palette = JSON.parse(readFileSync(path.join(page, 'src/scene/palette.json'), 'utf8'));
+const palette = JSON.parse(readFileSync(path.join(page, '../../io/mesh/palette.json'), 'utf8'));
 const kLeast = 10;
 const kVisions = {
   'usual eyes': [1, 0, 0, 0, 1, 0, 0, 0, 1],

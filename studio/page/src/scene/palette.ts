@@ -1,5 +1,5 @@
-// Which colour and which pattern a label has. The colours are in palette.json, where a test reads them.
-import palette from './palette.json';
+// Which colour and which pattern a label has. The colours are in io/mesh/palette.json, for tiles and pictures, too.
+import palette from '../../../../io/mesh/palette.json';
 
 /** Patterns that materials.ts can draw: 0 is none. */
 export const kPatterns = 9;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "io/picture/drawing.h"
+#include "io/picture/picture.h"
+
+#include <map>
+#include <span>
+#include <string>
+
+namespace oriel::detail {
+
+/// Colours of what stands around the buildings.
+struct PictureTheme {
+  Colour ground, ink, line;
+};
+PictureTheme theme_of(bool is_dark);
+
+/// The classes that are seen, each with the number of its features that are seen; plain surfaces
+/// have no number.
+using SeenClasses = std::map<std::string, std::size_t>;
+
+/// A row of patches with names and numbers, in lines of `within`, from its top on: parts by number,
+/// then surfaces.
+PictureGroup legend(const SeenClasses& classes, const PictureBox& within,
+                    const PictureTheme& theme);
+/// What legend() takes of the height.
+double legend_height_px(const SeenClasses& classes, double width_px);
+
+/// A bar of a round number of metres (1, 2 or 5 times a power of ten) in the box's left lower
+/// corner.
+PictureGroup scale_bar(const Placing& placing, const PictureTheme& theme);
+
+}  // namespace oriel::detail

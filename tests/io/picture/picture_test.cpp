@@ -1,0 +1,157 @@
+#include "io/picture/picture.h"
+
+#include "io/mesh/label_colours.h"
+#include "io/picture/raster.h"
+#include "io/picture/visible.h"
+
+#include <cmath>
+#include <expat.h>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+/// Adds a box from `low` to `high` as polygons of a feature.
+void add_box(MeshSource& mesh, Vec3 low, Vec3 high, const std::string& label) {
+  const int first = static_cast<int>(mesh.points.size());
+  for (int i = 0; i < 8; ++i)
+    mesh.points.push_back({(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
+                           (i & 4) != 0 ? high.z : low.z});
+  const int feature = static_cast<int>(mesh.features.size());
+  mesh.features.push_back({"b", label, label + std::to_string(feature)});
+  const std::vector<std::pair<std::vector<int>, Vec3>> faces{
+      {{0, 2, 3, 1}, {0, 0, -1}}, {{4, 5, 7, 6}, {0, 0, 1}},  {{0, 1, 5, 4}, {0, -1, 0}},
+      {{2, 6, 7, 3}, {0, 1, 0}},  {{0, 4, 6, 2}, {-1, 0, 0}}, {{1, 3, 7, 5}, {1, 0, 0}}};
+  for (const auto& [corners, normal] : faces) {
+    MeshPolygon polygon{{corners}, normal, feature};
+    for (int& corner : polygon.rings.front()) corner += first;
+    mesh.polygons.push_back(std::move(polygon));
+  }
+}
+
+/// Boxes one behind the other, through each other and flush with each other.
+MeshSource boxes() {
+  MeshSource mesh;
+  add_box(mesh, {0, 0, 0}, {10, 8, 6}, "wall");
+  add_box(mesh, {3, -1, 2}, {5, 4, 9}, "chimney");
+  add_box(mesh, {7, 0, 1}, {8, 1, 3}, "window");
+  add_box(mesh, {-4, 12, 0}, {6, 15, 11}, "garage");
+  return mesh;
+}
+
+std::string drawn(const MeshSource& mesh, PictureFormat format, const PictureOptions& options) {
+  const auto made = picture({{.mesh = mesh}}, format, options);
+  REQUIRE(made.value);
+  return *made.value;
+}
+
+/// How often each element of an XML text occurs; none if it is not well-formed.
+std::map<std::string, int> elements_in(const std::string& text) {
+  std::map<std::string, int> counts;
+  XML_Parser parser = XML_ParserCreate(nullptr);
+  XML_SetUserData(parser, &counts);
+  XML_SetStartElementHandler(parser, [](void* to, const char* name, const char**) {
+    ++(*static_cast<std::map<std::string, int>*>(to))[name];
+  });
+  const auto status = XML_Parse(parser, text.data(), static_cast<int>(text.size()), 1);
+  XML_ParserFree(parser);
+  return status == XML_STATUS_OK ? counts : std::map<std::string, int>{};
+}
+
+}  // namespace
+
+TEST_SUITE("io") {
+  TEST_CASE("what a picture of pixels and one of outlines show of each face is as large") {
+    const MeshSource mesh = boxes();
+    for (const double azimuth : {0.0, 33.0, 150.0, 271.0})
+      for (const double elevation : {-20.0, 5.0, 40.0, 89.0}) {
+        CAPTURE(azimuth);
+        CAPTURE(elevation);
+        const detail::Camera camera = detail::camera_at(azimuth, elevation);
+        const auto placing = detail::placing_in(mesh, camera, {0, 0, 600, 400});
+        const auto faces = detail::faces_of(mesh, camera, placing);
+        const auto pixels = detail::seen_pixels(faces, 600, 400);
+        const auto rings = detail::visible_rings(faces);
+        double all = 0, differ = 0;
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+          all += pixels[i];
+          differ += std::abs(pixels[i] - detail::area_px(rings[i]));
+        }
+        CHECK(all > 20'000);
+        CHECK(differ < 0.01 * all);
+      }
+  }
+
+  TEST_CASE("the nearer face of two is seen and of two in one plane the part") {
+    MeshSource mesh;
+    add_box(mesh, {0, 0, 0}, {4, 4, 4}, "wall");
+    add_box(mesh, {1, -2, 1}, {3, -1, 3}, "garage");  // before it
+    add_box(mesh, {0, 5, 0}, {4, 6, 4}, "door");      // behind it
+    const detail::Camera camera = detail::camera_at(180, 0);
+    const auto faces =
+        detail::faces_of(mesh, camera, detail::placing_in(mesh, camera, {0, 0, 100, 100}));
+    const auto seen = detail::seen_pixels(faces, 100, 100);
+    std::map<int, double> of_feature;
+    for (std::size_t i = 0; i < faces.size(); ++i) of_feature[faces[i].feature] += seen[i];
+    CHECK(of_feature[1] > 0);
+    CHECK(of_feature[0] == doctest::Approx(3 * of_feature[1]).epsilon(0.02));
+    CHECK(of_feature[2] == 0);
+  }
+
+  TEST_CASE("a picture has the same bytes twice in every format and theme") {
+    for (const auto format : {PictureFormat::png, PictureFormat::svg, PictureFormat::pdf})
+      for (const bool is_dark : {false, true}) {
+        PictureOptions options{.width_px = 300, .height_px = 200, .is_dark = is_dark};
+        CHECK(drawn(boxes(), format, options) == drawn(boxes(), format, options));
+        CHECK(drawn(boxes(), format, options) !=
+              drawn(boxes(), format, {.width_px = 300, .height_px = 200, .is_dark = !is_dark}));
+      }
+  }
+
+  TEST_CASE("each part that is seen is a group of the SVG with its id and label") {
+    const std::string svg = drawn(boxes(), PictureFormat::svg, {.elevation_deg = 45});
+    const auto elements = elements_in(svg);
+    REQUIRE(!elements.empty());
+    CHECK(elements.at("g") == 5);  // four parts, the legend
+    for (const char* part :
+         {"id=\"b_chimney1\" class=\"chimney\"", "id=\"b_garage3\" class=\"garage\""})
+      CHECK(svg.find(part) != std::string::npos);
+    CHECK(svg.find("chimney 1") != std::string::npos);
+  }
+
+  TEST_CASE("a facade is looked at straight and one that is not there is an error") {
+    MeshSource mesh = boxes();
+    const PictureOptions south{.view = PictureView::facade, .azimuth_deg = 200};
+    CHECK(picture({{.mesh = mesh}}, PictureFormat::svg, south).value);
+    std::erase_if(mesh.polygons, [](const MeshPolygon& polygon) { return polygon.normal.y < 0; });
+    const auto made = picture({{.mesh = mesh}}, PictureFormat::svg, south);
+    CHECK(!made.value);
+    REQUIRE(made.issues.size() == 1);
+    CHECK(made.issues[0].code == Code::E170);
+  }
+
+  TEST_CASE("a picture of nothing and the least and thinnest picture are pictures") {
+    for (const auto format : {PictureFormat::png, PictureFormat::svg, PictureFormat::pdf}) {
+      CHECK(picture({{}}, format).value);
+      CHECK(!drawn(boxes(), format, {.width_px = kLeastPicture_px, .height_px = kLeastPicture_px})
+                 .empty());
+      CHECK(!drawn(boxes(), format, {.width_px = 2000, .height_px = kLeastPicture_px}).empty());
+    }
+  }
+
+  TEST_CASE("usual labels have their colour and surfaces are no parts") {
+    CHECK(colour_of_label("window") == Colour{0x0e, 0x75, 0xbd});
+    CHECK(colour_of_label("bay_window") == colour_of_label("bay"));
+    CHECK(is_label_of_part("window"));
+    for (const char* label :
+         {"wall", "roof", "ground", "outerceiling", "outerfloor", "unlabelled", ""})
+      CHECK_FALSE(is_label_of_part(label));
+  }
+}
+
+}  // namespace oriel
