@@ -29,7 +29,7 @@ constexpr std::size_t kMostOfAPage = 2000;
 
 struct ViewArguments : RunOptions, RulesChoice {
   std::string out;
-  std::string after;
+  std::vector<std::string> after;
   PictureArguments picture;
 };
 
@@ -70,11 +70,12 @@ ExitCode record(const RunOptions& arguments, const RuleBase& rules, Report& repo
   return code;
 }
 
-/// The same buildings out of the generalised file, with what was read and written for the first run
+/// The same buildings out of a generalised file, with what was read and written for the first run
 /// left as it is.
-RunOptions arguments_after(const ViewArguments& arguments, std::vector<std::string> ids) {
+RunOptions arguments_after(const ViewArguments& arguments, const std::string& file,
+                           std::vector<std::string> ids) {
   RunOptions after = arguments;
-  after.inputs = {arguments.after};
+  after.inputs = {file};
   after.selection = {};
   after.selection.ids = std::move(ids);
   after.lod.clear();
@@ -91,7 +92,7 @@ void check_names(const ViewArguments& arguments) {
   NamedFiles files;
   files.add(arguments);
   files.add_input("--rules", arguments.rules);
-  files.add_input("--after", arguments.after);
+  for (const std::string& file : arguments.after) files.add_input("--after", file);
   files.add_output("-o", arguments.out);
   files.check();
 }
@@ -116,31 +117,63 @@ std::string page_of(const studio::Recording& recording) {
   return whole.append(recording.json()).append(page.substr(at + kMark.size()));
 }
 
+/// Reads what became of the buildings in a file, into a panel of its own.
+ExitCode gather_after(const RunOptions& arguments, const RuleBase& rules, Report& report,
+                      PanelGatherer& gatherer) {
+  BatchRunner runner(arguments, &rules, report);
+  bool is_found = false;
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
+    const CarriedLabelReader reader(document);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].is_passed_over) continue;
+      const auto carried = reader.labels_of(i);
+      gatherer.add_after(document.buildings[i], lines[i], carried ? &*carried : nullptr);
+      is_found = true;
+    }
+  });
+  const ExitCode code = runner.run(visitor);
+  if (!is_found && code != ExitCode::input)
+    refuse(Code::E128, arguments.inputs.front(), "has none of the buildings that are shown");
+  return code;
+}
+
+std::string name_of(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
 /// Labels the buildings and writes a picture of them.
-ExitCode draw(const ViewArguments& arguments, const RuleBase& rules, PictureFormat format,
+ExitCode draw(ViewArguments& arguments, const RuleBase& rules, PictureFormat format,
               Report& report) {
   BatchRunner runner(arguments, &rules, report);
   PanelGatherer gatherer(arguments.picture, rules, arguments.label_options());
   std::map<std::string, int> counts;
+  std::vector<std::string> ids;
   RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     if (!runner.is_last_run()) return;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (lines[i].is_passed_over) continue;
       for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
       gatherer.add(document, document.buildings[i], lines[i]);
+      ids.push_back(document.buildings[i].id);
     }
   });
-  const ExitCode code = runner.run(visitor);
+  ExitCode code = runner.run(visitor);
   runner.report_summary("shown", counts);
-  const auto panels = gatherer.panels();
-  if (panels.empty()) {
+  if (ids.empty()) {
     if (code == ExitCode::input) return code;
     refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
+  }
+  if (!arguments.picture.scales.empty() && ids.size() > 1)
+    arguments.picture.options.columns = static_cast<int>(arguments.picture.scales.size()) + 1;
+  for (const std::string& file : arguments.after) {
+    gatherer.begin_after(name_of(arguments.inputs.front()), name_of(file));
+    code =
+        graver(code, gather_after(arguments_after(arguments, file, ids), rules, report, gatherer));
   }
   if (gatherer.left_out() > 0)
     run_log().info("--grid {} has no room for {}", arguments.picture.grid,
                    counted(gatherer.left_out(), "more building"));
-  Checked<std::string> made = picture(panels, format, arguments.picture.options);
+  Checked<std::string> made = picture(gatherer.panels(), format, arguments.picture.options);
   if (!made.value) throw InputError(std::move(made.issues.front()));
   write_file(arguments.out, *made.value);
   return code;
@@ -151,8 +184,10 @@ ExitCode work(ViewArguments& arguments) {
   settle_inputs(arguments, report);
   check_names(arguments);
   const auto format = picture_format(arguments.out);
-  settle(arguments.picture, format.has_value());
+  settle(arguments.picture, format.has_value(), !arguments.after.empty());
   if (!format) check_page_name(arguments.out);
+  if (!format && arguments.after.size() > 1)
+    throw CLI::ValidationError("--after", "a page shows one file beside the first");
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   find_neighbours(arguments, report);
@@ -165,14 +200,13 @@ ExitCode work(ViewArguments& arguments) {
     refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
   }
   const std::size_t shown = ids.size();
-  if (!arguments.after.empty()) {
+  for (const std::string& file : arguments.after) {
     std::vector<std::string> found;
     recording.begin_after();
     const ExitCode second =
-        record(arguments_after(arguments, std::move(ids)), *rules, report, recording, found, true);
+        record(arguments_after(arguments, file, ids), *rules, report, recording, found, true);
     if (found.empty() && second == ExitCode::input) return second;
-    if (found.empty())
-      refuse(Code::E128, arguments.after, "has none of the buildings that are shown");
+    if (found.empty()) refuse(Code::E128, file, "has none of the buildings that are shown");
     code = graver(code, second);
   }
   if (shown > kMostOfAPage)
@@ -201,7 +235,8 @@ void add_view(CLI::App& app, Action& action) {
       ->required();
   command->add_option(
       "--after", arguments->after,
-      "The same buildings, generalised: a line divides the picture into before and after");
+      "The same buildings, generalised: a line divides a page into before and after; a picture has "
+      "them beside each other, from each such file");
   command->footer(
       "The page needs no other file and loads nothing; page.html#ID opens it at a feature.\n"
       "Example:\n  oriel view house.city.json -o house.html\n"

@@ -58,6 +58,42 @@ double side_deg(const std::string& text) {
                   text));
 }
 
+using FeatureName = std::pair<std::string, std::string>;
+
+/// By building and id of each part the box of its faces.
+std::map<FeatureName, Box> boxes_of(const MeshSource& mesh) {
+  std::map<FeatureName, Box> boxes;
+  for (const MeshPolygon& polygon : mesh.polygons) {
+    if (polygon.feature < 0) continue;
+    const MeshFeature& feature = mesh.features[static_cast<std::size_t>(polygon.feature)];
+    if (feature.id.empty()) continue;
+    for (const auto& ring : polygon.rings)
+      for (const int v : ring)
+        boxes[{feature.building, feature.id}].grow(mesh.points[static_cast<std::size_t>(v)]);
+  }
+  return boxes;
+}
+
+/// A part that has moved or grown by less looks the same.
+constexpr double kSamePlace_m = 0.01;
+
+bool is_same(const Box& p, const Box& q) {
+  return length(p.min - q.min) < kSamePlace_m && length(p.max - q.max) < kSamePlace_m;
+}
+
+/// What is in one of two panels only, or lies elsewhere in the other one.
+std::vector<FeatureName> differences(const MeshSource& before, const MeshSource& after) {
+  const auto old = boxes_of(before), now = boxes_of(after);
+  std::vector<FeatureName> names;
+  for (const auto& [name, box] : old)
+    if (const auto found = now.find(name); found == now.end() || !is_same(box, found->second))
+      names.push_back(name);
+  for (const auto& [name, box] : now)
+    if (!old.contains(name)) names.push_back(name);
+  std::ranges::sort(names);
+  return names;
+}
+
 /// "1:5000: 12 windows, 3 other parts".
 std::string drawn_caption(const std::string& target, const MeshSource& mesh) {
   std::set<int> features;
@@ -106,13 +142,18 @@ void add_picture_arguments(CLI::App& command, PictureArguments& arguments) {
           .add_option("--scales", arguments.scale_texts,
                       "A panel for each scale, with the building as it is drawn for it")
           ->delimiter(','));
+  add(command
+          .add_option("--at-map-size", options.map_dpi,
+                      "With --scales: each drawing once more as large as on a map of so many dots "
+                      "an inch, 300 for paper")
+          ->check(CLI::Range(50.0, 1200.0)));
   add(command.add_flag("--dark", options.is_dark, "Dark ground"));
   add(command.add_flag("--transparent", options.is_transparent, "No ground"));
   add(command.add_flag("--scale-bar", options.has_scale_bar, "A bar of metres"));
   add(command.add_flag("--no-legend", arguments.has_no_legend, "No list of classes"));
 }
 
-void settle(PictureArguments& arguments, bool is_picture) {
+void settle(PictureArguments& arguments, bool is_picture, bool has_after) {
   PictureOptions& options = arguments.options;
   const PictureOptions usual;
   const bool says_anything =
@@ -142,8 +183,11 @@ void settle(PictureArguments& arguments, bool is_picture) {
     options.columns = columns;
     arguments.most_panels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   }
+  if (options.map_dpi > 0 && arguments.scale_texts.empty())
+    throw CLI::ValidationError("--at-map-size", "needs --scales");
   arguments.scales = scales_of(arguments.scale_texts, "--scales");
-  options.shares_frame = !arguments.scales.empty();
+  if (has_after && (!arguments.grid.empty() || !arguments.scales.empty()))
+    throw CLI::ValidationError("--after", "excludes --grid and --scales");
   options.has_legend = !arguments.has_no_legend;
 }
 
@@ -162,13 +206,15 @@ void PanelGatherer::add(const Document& document, const Building& building,
 
 void PanelGatherer::add_scales(const Document& document, const Building& building,
                                const PipelineResult& result) {
-  panels_.back().caption = drawn_caption("as read", panels_.back().mesh);
+  panels_.back().caption = drawn_caption(building.id, panels_.back().mesh);
+  panels_.back().frame = static_cast<int>(panels_.size());
+  const int frame = panels_.back().frame;
   for (const double scale : arguments_.scales) {
     GeneraliseOptions options;
     static_cast<LabelOptions&>(options) = options_;
     OutputRecord output;
     oriel::add(generalise(document, building, result, rules_, at_scale(scale), options), output);
-    PicturePanel panel;
+    PicturePanel panel{.frame = frame, .map_scale = scale};
     for (const LabelledBuilding& drawn : output.buildings)
       append_building(panel.mesh, building, drawn);
     panel.caption = drawn_caption(at_scale(scale).text(), panel.mesh);
@@ -177,11 +223,60 @@ void PanelGatherer::add_scales(const Document& document, const Building& buildin
   }
 }
 
+LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carried) {
+  LabelledBuilding made;
+  made.building = building.id;
+  made.surface_of_polygon.assign(carried.surfaces.size(), -1);
+  for (std::size_t i = 0; i < carried.surfaces.size(); ++i) {
+    if (carried.surfaces[i].type.empty()) continue;
+    made.surface_of_polygon[i] = static_cast<int>(made.surfaces.size());
+    made.surfaces.push_back({.type = carried.surfaces[i].type, .members = {}});
+  }
+  // Surfaces stand first: an opening is none of what it lies in.
+  std::vector<bool> is_taken(carried.surfaces.size());
+  for (const CarriedFeature& feature : carried.features) {
+    const int surface = static_cast<int>(made.surfaces.size());
+    made.surfaces.push_back(
+        {.type = {}, .members = {{"oriel_label", feature.label}, {"oriel_id", feature.id}}});
+    for (const int polygon : feature.polygons) {
+      const auto i = static_cast<std::size_t>(polygon);
+      const std::string& type = carried.surfaces.at(i).type;
+      if (is_taken[i] && (type == "Window" || type == "Door")) continue;
+      made.surface_of_polygon[i] = surface;
+      is_taken[i] = true;
+    }
+  }
+  return made;
+}
+
+void PanelGatherer::begin_after(const std::string& before, const std::string& after) {
+  if (!has_after_) panels_.front().caption = before;
+  has_after_ = true;
+  panels_.front().frame = 0;
+  panels_.push_back({.caption = after, .frame = 0});
+}
+
+void PanelGatherer::add_after(const Building& building, const PipelineResult& result,
+                              const CarriedLabels* carried) {
+  append_building(panels_.back().mesh, building,
+                  carried == nullptr ? annotate(building, result, rules_, options_)
+                                     : labelled_as(building, *carried));
+}
+
 std::vector<PicturePanel> PanelGatherer::panels() const {
   std::vector<PicturePanel> panels = panels_;
+  for (std::size_t i = 1; i < panels.size() && has_after_; ++i)
+    panels[i].marked = differences(panels.front().mesh, panels[i].mesh);
+  if (has_after_ && panels.size() == 2) panels.front().marked = panels.back().marked;
+  Box box;
   for (PicturePanel& panel : panels) {
-    Box box;
-    for (const Vec3 point : panel.mesh.points) box.grow(point);
+    // Those of one frame move together.
+    const bool goes_on =
+        panel.frame >= 0 && &panel != &panels.front() && panel.frame == (&panel - 1)->frame;
+    if (!goes_on) {
+      box = {};
+      for (const Vec3 point : panel.mesh.points) box.grow(point);
+    }
     if (box.is_empty()) continue;
     const Vec3 size = box.max - box.min;
     if (std::max(size.x, size.y) > kMostApart_m) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/cityjson/carried_labels.h"
 #include "io/document.h"
 #include "oriel/label.h"
 #include "oriel/write.h"
@@ -34,10 +35,13 @@ void add_picture_arguments(CLI::App& command, PictureArguments& arguments);
 
 /// Makes options of the texts. Throws CLI::ValidationError for what is none, and for options of a
 /// picture where a page is written.
-void settle(PictureArguments& arguments, bool is_picture);
+void settle(PictureArguments& arguments, bool is_picture, bool has_after);
+
+/// What a file says of a building's parts, as it would be written.
+LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carried);
 
 /// Gathers the buildings of a run as panels: one of all of them, with `--grid` one of each, with
-/// `--scales` one of each at each scale.
+/// `--scales` one of each at each scale; with `--after` one more of each file.
 class PanelGatherer {
  public:
   PanelGatherer(const PictureArguments& arguments, const RuleBase& rules, LabelOptions options)
@@ -45,8 +49,15 @@ class PanelGatherer {
 
   void add(const Document& document, const Building& building, const PipelineResult& result);
 
-  /// The panels, moved to the origin. Throws InputError E163 if buildings of one panel are so far
-  /// apart that nothing would be seen.
+  /// From here on buildings are what became of those before; they have a panel of that caption.
+  void begin_after(const std::string& before, const std::string& after);
+  /// Adds one of them, with the labels that its file has; null: those of `result`.
+  void add_after(const Building& building, const PipelineResult& result,
+                 const CarriedLabels* carried);
+
+  /// The panels, moved to the origin, with what differs from the first one marked in those after
+  /// it. Throws InputError E163 if buildings of one panel are so far apart that nothing would be
+  /// seen.
   [[nodiscard]] std::vector<PicturePanel> panels() const;
   /// How many panels there was no room for.
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
@@ -59,6 +70,7 @@ class PanelGatherer {
   LabelOptions options_;
   std::vector<PicturePanel> panels_;
   std::size_t left_out_ = 0;
+  bool has_after_ = false;
 };
 
 }  // namespace oriel::cli

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -26,6 +27,8 @@ struct PlacedPanel {
   Placing placing;
   std::vector<PictureFace> faces{};
   std::set<int> marked{};
+  /// It stands in the corner of another one: without caption and bar.
+  bool is_inset = false;
 };
 
 std::size_t columns_for(std::size_t panels, const PictureOptions& options) {
@@ -50,27 +53,42 @@ std::vector<PictureBox> boxes_for(std::size_t panels, const PictureBox& within,
   return boxes;
 }
 
-/// One scale and one middle for all that have the size of the largest.
-void share_frame(std::vector<PlacedPanel>& panels) {
-  const auto least = std::ranges::min_element(
-      panels, {}, [](const PlacedPanel& panel) { return panel.placing.pixels_per_m; });
-  const Placing shared = least->placing;
+/// Gives panels of one frame the scale and the middle of the one that is largest.
+void share_frames(std::vector<PlacedPanel>& panels) {
+  std::map<int, Placing> largest;
+  for (const PlacedPanel& panel : panels) {
+    const auto [found, is_new] = largest.try_emplace(panel.panel->frame, panel.placing);
+    if (!is_new && panel.placing.pixels_per_m < found->second.pixels_per_m)
+      found->second = panel.placing;
+  }
   for (PlacedPanel& panel : panels) {
+    if (panel.panel->frame < 0) continue;
+    const Placing& shared = largest.at(panel.panel->frame);
     panel.placing.pixels_per_m = shared.pixels_per_m;
     panel.placing.middle = shared.middle;
   }
 }
 
+/// The first panel of the frame of a panel.
+std::size_t first_of_frame(const std::vector<PicturePanel>& panels, std::size_t panel) {
+  if (panels[panel].frame < 0) return panel;
+  return static_cast<std::size_t>(
+      std::ranges::find(panels, panels[panel].frame, &PicturePanel::frame) - panels.begin());
+}
+
 std::set<int> marked_of(const PicturePanel& panel) {
   std::set<int> marked{};
   for (std::size_t i = 0; i < panel.mesh.features.size(); ++i)
-    if (std::ranges::find(panel.marked, panel.mesh.features[i].id) != panel.marked.end())
+    if (std::ranges::binary_search(
+            panel.marked, std::pair(panel.mesh.features[i].building, panel.mesh.features[i].id)))
       marked.insert(static_cast<int>(i));
   return marked;
 }
 
 /// The classes of all panels. Features are counted if each is in one panel only, seen or not.
-SeenClasses classes_of(const std::vector<PicturePanel>& panels, bool counts) {
+SeenClasses classes_of(const std::vector<PicturePanel>& panels) {
+  const bool counts =
+      std::ranges::all_of(panels, [](const PicturePanel& panel) { return panel.frame < 0; });
   SeenClasses classes;
   for (const PicturePanel& panel : panels) {
     std::set<int> features;
@@ -122,6 +140,20 @@ Issue picture_issue(Code code, std::string sentence) {
   return issue;
 }
 
+/// The same panel in the corner of its box, as large as on the map; none where that is no smaller
+/// than the panel's half.
+std::optional<PlacedPanel> inset_of(const PlacedPanel& placed, double dpi) {
+  constexpr double kInch_m = 0.0254, kRoom_px = 6;
+  PlacedPanel inset{.panel = placed.panel, .placing = placed.placing, .is_inset = true};
+  inset.placing.pixels_per_m = dpi / kInch_m / placed.panel->map_scale;
+  const auto [width_m, height_m] = placed.placing.size_m;
+  inset.placing.box = {placed.placing.box.left, placed.placing.box.top,
+                       width_m * inset.placing.pixels_per_m + kRoom_px,
+                       height_m * inset.placing.pixels_per_m + kRoom_px};
+  if (2 * inset.placing.pixels_per_m > placed.placing.pixels_per_m) return std::nullopt;
+  return inset;
+}
+
 /// The panels in their places; none where a facade that was asked for is not there.
 Checked<std::vector<PlacedPanel>> placed_panels(const std::vector<PicturePanel>& panels,
                                                 const std::vector<PictureBox>& boxes,
@@ -129,8 +161,7 @@ Checked<std::vector<PlacedPanel>> placed_panels(const std::vector<PicturePanel>&
   std::vector<PlacedPanel> placed;
   std::vector<Camera> cameras;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const std::size_t of = options.shares_frame ? 0 : i;
-    const auto camera = camera_of(panels[of].mesh, options);
+    const auto camera = camera_of(panels[first_of_frame(panels, i)].mesh, options);
     if (!camera)
       return {std::nullopt,
               {picture_issue(Code::E170, fmt::format("no wall looks within 45 degrees of {:g}, "
@@ -141,9 +172,15 @@ Checked<std::vector<PlacedPanel>> placed_panels(const std::vector<PicturePanel>&
                       .placing = placing_in(panels[i].mesh, *camera, boxes[i]),
                       .marked = marked_of(panels[i])});
   }
-  if (options.shares_frame) share_frame(placed);
+  share_frames(placed);
+  for (std::size_t i = 0; i < panels.size() && options.map_dpi > 0; ++i)
+    if (panels[i].map_scale > 0)
+      if (auto inset = inset_of(placed[i], options.map_dpi)) {
+        placed.push_back(std::move(*inset));
+        cameras.push_back(cameras[i]);
+      }
   for (std::size_t i = 0; i < placed.size(); ++i)
-    placed[i].faces = faces_of(panels[i].mesh, cameras[i], placed[i].placing);
+    placed[i].faces = faces_of(placed[i].panel->mesh, cameras[i], placed[i].placing);
   return {std::move(placed), {}};
 }
 
@@ -165,8 +202,7 @@ Checked<std::string> picture(const std::vector<PicturePanel>& panels, PictureFor
                            "pictures as PNG and PDF take Cairo, which is not installed "
                            "(libcairo2); SVG does without")}};
   const PictureTheme theme = theme_of(options.is_dark);
-  const SeenClasses classes =
-      options.has_legend ? classes_of(panels, !options.shares_frame) : SeenClasses{};
+  const SeenClasses classes = options.has_legend ? classes_of(panels) : SeenClasses{};
   PictureBox within{kMargin_px, kMargin_px, std::max(1.0, options.width_px - 2 * kMargin_px),
                     std::max(1.0, options.height_px - 2 * kMargin_px)};
   const double legend_px = std::min(legend_height_px(classes, within.width), within.height / 2);
@@ -186,6 +222,7 @@ Checked<std::string> picture(const std::vector<PicturePanel>& panels, PictureFor
       draw_faces(panel.faces, panel.marked, panel.placing.box, raster);
     else
       append_parts(panel, drawing.groups);
+    if (panel.is_inset) continue;
     if (!panel.panel->caption.empty()) drawing.groups.push_back(caption(panel, theme));
     if (options.has_scale_bar) drawing.groups.push_back(scale_bar(panel.placing, theme));
   }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Pictures of labelled buildings, without a browser (docs/picture.md).
@@ -38,8 +39,9 @@ struct PictureOptions {
   bool is_transparent = false;
   bool has_legend = true;
   bool has_scale_bar = false;
-  /// All panels have one frame, as large as what is largest in them; else each fills its panel.
-  bool shares_frame = false;
+  /// Draws each panel that has a map scale once more in its corner, as large as on the map, for a
+  /// screen or printer of so many dots an inch, where that is at most half as large; 0: does not.
+  double map_dpi = 0;
 };
 
 /// What one panel of a picture shows.
@@ -48,8 +50,13 @@ struct PicturePanel {
   MeshSource mesh{};
   /// Stands below the panel; empty: nothing.
   std::string caption{};
-  /// Ids of features that are marked, as they changed.
-  std::vector<std::string> marked{};
+  /// Panels of one number are seen from one place at one scale, that of the largest; -1: each by
+  /// itself.
+  int frame = -1;
+  /// The denominator of the scale that it is drawn for; 0: none.
+  double map_scale = 0;
+  /// Building and id of features that are marked, as they changed; sorted.
+  std::vector<std::pair<std::string, std::string>> marked{};
 };
 
 /// The bytes of a picture of `panels`, which lie side by side; the same whatever the machine, but

@@ -1,0 +1,81 @@
+#include "tests/cli/command.h"
+
+#include <string>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+using namespace oriel::test;
+
+namespace {
+
+const std::string kHouse = sample("house");
+
+/// How often a text occurs in another one.
+std::size_t count_in(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("a picture of a building is a file of the format that its name says") {
+    const Folder folder;
+    for (const auto& [name, begin] :
+         {std::pair("a.png", "\x89PNG"), {"a.svg", "<?xml"}, {"a.pdf", "%PDF-"}}) {
+      CAPTURE(name);
+      const Outcome outcome = run({"view", kHouse, "-o", folder / name});
+      CHECK(outcome.exit == 0);
+      CHECK(outcome.says("1 of 1 building shown"));
+      CHECK(bytes_of(folder / name).starts_with(begin));
+    }
+  }
+
+  TEST_CASE("a picture of scales has a panel for each with what is drawn") {
+    const Folder folder;
+    REQUIRE(run({"view", kHouse, "--scales", "1:1000,1:5000", "-o", folder / "a.svg"}).exit == 0);
+    const std::string svg = bytes_of(folder / "a.svg");
+    CHECK(count_in(svg, "</text>") > 3);
+    CHECK(svg.find(">1:1000: 18 openings<") != std::string::npos);
+    CHECK(svg.find(">1:5000: 0 openings<") != std::string::npos);
+  }
+
+  TEST_CASE("before and after stand beside each other and what differs is marked") {
+    const Folder folder;
+    REQUIRE(
+        run({"generalise", kHouse, "--scale", "1:2500", "-o", folder / "small.city.json"}).exit ==
+        0);
+    const std::string mark = "#d00050";
+    REQUIRE(
+        run({"view", kHouse, "--after", folder / "small.city.json", "-o", folder / "a.svg"}).exit ==
+        0);
+    CHECK(count_in(bytes_of(folder / "a.svg"), mark) > 3);
+    REQUIRE(run({"label", kHouse, "-o", folder / "same.city.json"}).exit == 0);
+    REQUIRE(
+        run({"view", kHouse, "--after", folder / "same.city.json", "-o", folder / "b.svg"}).exit ==
+        0);
+    CHECK(count_in(bytes_of(folder / "b.svg"), mark) == 0);
+  }
+
+  TEST_CASE("a sheet has a panel for each building and says for how many there is no room") {
+    const Folder folder;
+    const std::string row = sample("row"), hip = sample("hip");
+    const Outcome outcome =
+        run({"view", kHouse, row, hip, "--grid", "2x1", "-o", folder / "a.svg"});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("--grid 2x1 has no room for 1 more building"));
+    CHECK(count_in(bytes_of(folder / "a.svg"), "text-anchor=\"middle\"") == 2);
+  }
+
+  TEST_CASE("buildings that lie too far apart for one picture are refused and fit a sheet") {
+    const Folder folder;
+    const std::string far = sample("house-utm");
+    const Outcome outcome = run({"view", kHouse, far, "-o", folder / "a.png"});
+    CHECK(outcome.exit == 5);
+    CHECK(outcome.says("E163"));
+    CHECK(run({"view", kHouse, far, "--grid", "2x1", "-o", folder / "a.png"}).exit == 0);
+  }
+}
