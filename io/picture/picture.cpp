@@ -194,6 +194,13 @@ Raster blank(const PictureOptions& options, Colour ground) {
 
 }  // namespace
 
+void move_to_origin(PicturePanel& panel) {
+  Box box;
+  for (const Vec3 point : panel.mesh.points) box.grow(point);
+  if (box.is_empty()) return;
+  for (Vec3& point : panel.mesh.points) point = point - box.min;
+}
+
 Checked<std::string> picture(const std::vector<PicturePanel>& panels, PictureFormat format,
                              const PictureOptions& options) {
   if (format != PictureFormat::svg && !has_cairo())

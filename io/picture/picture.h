@@ -59,6 +59,9 @@ struct PicturePanel {
   std::vector<std::pair<std::string, std::string>> marked{};
 };
 
+/// Moves what a panel shows to the origin: coordinates of a country have too many digits.
+void move_to_origin(PicturePanel& panel);
+
 /// The bytes of a picture of `panels`, which lie side by side; the same whatever the machine, but
 /// for the shapes of letters. Faces have the colour of their label, or of their surface (wall,
 /// roof, ground), shaded by their slope; hidden parts are not drawn. In SVG each part is a group

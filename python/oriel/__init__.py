@@ -27,7 +27,7 @@ from ._oriel import (
     Truth,
     __version__,
 )
-from .buildings import Items, read, read_text, to_text, write
+from .buildings import Items, picture, read, read_text, to_text, write
 from .errors import Error
 from .features import (
     Attribute,
@@ -50,6 +50,6 @@ __all__ = [
     "Attribute", "Building", "ClassScore", "Error", "Explanation", "Features", "File", "Generalised", "Issue",
     "Items", "KnifeEdge", "Learnt", "LearntParam", "Lists", "Miss", "Pack", "Param", "Place", "Proposal", "Question",
     "Repaired", "Result", "Score", "Truth", "__version__", "embedded_packs", "energy", "explain", "explain_json",
-    "features", "generalise", "interpret", "label", "learn", "read", "read_features", "read_text", "read_truth",
+    "features", "generalise", "interpret", "label", "learn", "picture", "read", "read_features", "read_text", "read_truth",
     "relation_schema", "repair", "schema", "score", "segment", "to_text", "write", "write_features",
 ]

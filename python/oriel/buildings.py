@@ -46,6 +46,10 @@ class Items(Sequence[Item], Generic[Item]):
             raise KeyError(key)
         return self._items[key]
 
+    def _repr_png_(self) -> bytes | None:
+        """What a notebook shows: a picture, of what was made."""
+        return picture(self, size=(900, 600)) if any(isinstance(item, Made) for item in self._items) else None
+
     def __repr__(self) -> str:
         shown = ", ".join(repr(item) for item in self._items[:3])
         more = f", ... {len(self) - 3} more" if len(self) > 3 else ""
@@ -130,3 +134,38 @@ def to_text(items: Any, *, existing: str = "fill") -> str:
     """The same as text: CityJSON, or the lines of a CityJSONSeq where that or CityGML was read."""
     files, made = _files_and_made(items)
     return "".join(_oriel.to_text(file, made, existing) for file in files)
+
+
+def picture(made: Any, *, format: str = "png", azimuth: float = 150, elevation: float = 25, facade: float | None = None,
+            plan: bool = False, size: tuple[int, int] = (1200, 900), dark: bool = False, transparent: bool = False,
+            scale_bar: bool = False, legend: bool = True, grid: bool = False) -> bytes:
+    """A picture of what was made of buildings, as `oriel view` draws it: the bytes of a PNG, SVG or PDF.
+
+    made: a Result, Repaired or Generalised, or several.
+    format: png, svg or pdf.
+    azimuth, elevation: where the viewer stands, clockwise from north, and how high, in degrees.
+    facade: the side whose largest facade is looked at straight, in degrees clockwise from north.
+    plan: from straight above, north up.
+    size: width and height in pixels, 16 to 16384.
+    dark, transparent: a dark ground; none.
+    scale_bar, legend: a bar of metres; the list of classes.
+    grid: each building has a panel of its own; else all are in one picture.
+
+    Raises Error if no wall looks to that side (E170), or if this build has no pictures (E171).
+    """
+    if not all(16 <= pixels <= 16384 for pixels in size):
+        raise ValueError(f"size is {size}; expected two numbers from 16 to 16384")
+    view = "plan" if plan else "oblique" if facade is None else "facade"
+    bytes_, issues = _oriel.picture([made] if isinstance(made, Made) else list(made), format, view,
+                                    (azimuth if facade is None else facade, elevation), size, dark, transparent, legend,
+                                    scale_bar, grid)
+    if issues:
+        raise Error(issues)
+    return bytes_
+
+
+def _picture_of_one(self: Made) -> bytes:
+    return picture(self, size=(900, 600))
+
+
+Made._repr_png_ = _picture_of_one  # type: ignore[attr-defined]

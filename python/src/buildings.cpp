@@ -7,6 +7,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <stdexcept>
+#include <tuple>
 
 namespace py = pybind11;
 
@@ -126,6 +127,34 @@ std::string text_of(const std::shared_ptr<const ReadFile>& file, const MadeList&
   return text;
 }
 
+PictureFormat picture_format_of(const std::string& name) {
+  if (name == "png") return PictureFormat::png;
+  if (name == "svg") return PictureFormat::svg;
+  if (name == "pdf") return PictureFormat::pdf;
+  throw py::value_error("format is '" + name + "'; expected png, svg or pdf");
+}
+
+/// The bytes of a picture, or why there is none. With `has_panels` each building has a panel.
+std::pair<std::string, std::vector<Issue>> picture_of(const MadeList& made,
+                                                      const std::string& format,
+                                                      const PictureOptions& options,
+                                                      bool has_panels) {
+  std::vector<PicturePanel> panels;
+  std::vector<Issue> issues;
+  for (const auto& one : made) {
+    OutputRecord output;
+    one->add_to(output, issues);
+    const Building& building = one->of().building();
+    if (has_panels || panels.empty())
+      panels.push_back({.caption = has_panels ? building.id : std::string()});
+    for (const LabelledBuilding& labelled : output.buildings)
+      append_building(panels.back().mesh, building, labelled);
+  }
+  for (PicturePanel& panel : panels) move_to_origin(panel);
+  auto drawn = picture(panels, picture_format_of(format), options);
+  return {drawn.value.value_or(std::string()), std::move(drawn.issues)};
+}
+
 }  // namespace
 
 void bind_buildings(py::module_& module) {
@@ -169,6 +198,26 @@ void bind_buildings(py::module_& module) {
       .def_property_readonly("id", [](const MadeItem& made) { return made.of().building().id; })
       .def_property_readonly("issues", &MadeItem::issues,
                              "What was found on the way; an error says why nothing was made.");
+  module.def("picture",
+             [](const MadeList& made, const std::string& format, const std::string& view,
+                std::pair<double, double> direction_deg, std::pair<int, int> size_px, bool is_dark,
+                bool is_transparent, bool has_legend, bool has_scale_bar, bool has_panels) {
+               PictureOptions options;
+               options.view = view == "plan"     ? PictureView::plan
+                              : view == "facade" ? PictureView::facade
+                                                 : PictureView::oblique;
+               std::tie(options.azimuth_deg, options.elevation_deg) = direction_deg;
+               std::tie(options.width_px, options.height_px) = size_px;
+               options.is_dark = is_dark;
+               options.is_transparent = is_transparent;
+               options.has_legend = has_legend;
+               options.has_scale_bar = has_scale_bar;
+               auto drawn = [&] {
+                 const py::gil_scoped_release unlocked;
+                 return picture_of(made, format, options, has_panels);
+               }();
+               return std::pair(py::bytes(drawn.first), std::move(drawn.second));
+             });
   module.def("read", &read_file, Unlocked());
   module.def("write", &write_file, Unlocked());
   module.def("to_text", &text_of, Unlocked());

@@ -31,6 +31,19 @@ class BytesTest(FolderTest):
         self.compare(".city.json", oriel.generalise(labelled, profile="lod:2.0", edge_min=0.4), "generalise", HOUSE,
                      "--profile", "lod:2.0", "--edge-min", 0.4)
 
+    def test_pictures(self):
+        labelled = oriel.label(HOUSE)
+        for ending, options, words in (("png", {}, []), ("svg", {"facade": 180, "dark": True}, ["--facade", "south", "--dark"]),
+                                       ("pdf", {"plan": True, "size": (300, 200)}, ["--plan", "--size", "300,200"])):
+            with self.subTest(ending):
+                theirs = self.folder / f"theirs.{ending}"
+                run("view", HOUSE, *words, "-o", theirs)
+                self.assertEqual(oriel.picture(labelled, format=ending, **options), theirs.read_bytes())
+        self.assertTrue(labelled._repr_png_().startswith(b"\x89PNG"))
+        self.assertTrue(labelled[0]._repr_png_().startswith(b"\x89PNG"))
+        with self.assertRaises(ValueError):
+            oriel.picture(labelled, size=(0, 5))
+
     def test_repaired_buildings(self):
         for name in ("house", "block"):
             sample = SAMPLES / f"{name}.stripped.city.json"
