@@ -8,6 +8,7 @@
 #include "cli/terminal/print_out.h"
 #include "oriel/rules.h"
 #include "studio/server/browser.h"
+#include "studio/server/page_files.h"
 #include "studio/server/serve.h"
 
 #include <algorithm>
@@ -35,6 +36,8 @@ struct StudioArguments : RunOptions {
   std::string corrections = "corrections.jsonl";
   int port = 0;
   bool has_no_browser = false;
+  /// Where the page may put sample houses, where there are no others.
+  std::string samples_folder;
 };
 
 namespace fs = std::filesystem;
@@ -69,6 +72,11 @@ studio::SessionOptions session_options(const StudioArguments& arguments) {
   options.truth = arguments.truth;
   options.corrections = arguments.corrections;
   options.folders = folders_of(arguments);
+  for (const char* name :
+       {"house.stripped.city.json", "house.truth.json", "hip.stripped.city.json", "hip.truth.json",
+        "l-house.stripped.city.json", "l-house.truth.json", "experiment.yaml"})
+    options.samples.emplace_back(name, studio::page_file(name));
+  if (!arguments.samples_folder.empty()) options.samples_folder = arguments.samples_folder;
   options.jobs = arguments.jobs;
   options.for_each = shares_in_arena(arguments.jobs);
   return options;
@@ -89,6 +97,17 @@ bool may_be_pack(const std::string& rules) {
   const std::string ending = fs::path(rules).extension().string();
   return embedded_pack(rules) || fs::exists(rules, problem) || ending == ".yaml" ||
          ending == ".yml";
+}
+
+/// Without any file the page offers samples, in the folder that was given.
+void offer_samples(StudioArguments& arguments) {
+  std::error_code problem;
+  const auto is_folder = [&](const auto& input) { return fs::is_directory(input, problem); };
+  if (!std::ranges::all_of(arguments.inputs, is_folder)) return;
+  arguments.samples_folder =
+      (fs::path(arguments.inputs.front()) / "oriel-samples").lexically_normal();
+  run_log().info("{} has no buildings; the page offers sample houses", arguments.inputs.front());
+  arguments.inputs.clear();
 }
 
 void check_inputs(const StudioArguments& arguments) {
@@ -117,6 +136,7 @@ void say_address(const StudioArguments& arguments, const std::string& address) {
 ExitCode work(StudioArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
+  offer_samples(arguments);
   arguments.truth = truth_files(arguments.truth);
   check_inputs(arguments);
   if (!may_be_pack(arguments.rules) && !load_pack(arguments.rules, report)) return ExitCode::rules;

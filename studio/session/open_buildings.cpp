@@ -1,9 +1,13 @@
 #include "studio/session/open_buildings.h"
 
 #include "oriel/segment.h"
+#include "studio/session/request_body.h"
+#include "studio/session/saved_file.h"
 #include "studio/session/work_log.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,11 +55,49 @@ void place_features(OpenBuilding& open) {
 }
 
 OpenBuildings::OpenBuildings(const SessionOptions& options)
-    : options_(options), files_left_(options.files.size()), thread_([this] { run(); }) {}
+    : options_(options), files_left_(options.files.size()), thread_([this] { run(); }) {
+  const auto is_there = [&](const auto& sample) {
+    return read_text_file(sample_path(sample.first)).has_value();
+  };
+  if (offers_samples() && std::ranges::all_of(options_.samples, is_there)) open_samples();
+}
 
 OpenBuildings::~OpenBuildings() {
-  is_ending_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+  }
+  has_files_.notify_all();
   thread_.join();
+}
+
+std::string OpenBuildings::sample_path(const std::string& name) const {
+  return options_.samples_folder + "/" + name;
+}
+
+bool OpenBuildings::offers_samples() const {
+  const std::lock_guard lock(mutex_);
+  return options_.files.empty() && !options_.samples.empty();
+}
+
+void OpenBuildings::open_samples() {
+  if (!offers_samples()) throw RefusedRequest(409, "buildings are open already");
+  std::error_code problem;
+  std::filesystem::create_directories(options_.samples_folder, problem);
+  std::vector<std::string> files, truth;
+  for (const auto& [name, text] : options_.samples) {
+    const std::string path = sample_path(name);
+    save_file(path, [&](const auto& on_disk) { return on_disk.value_or(std::string(text)); });
+    if (name.ends_with(".truth.json")) truth.push_back(path);
+    if (name.ends_with(".city.json")) files.push_back(path);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    options_.files = std::move(files);
+    options_.truth = std::move(truth);
+    files_left_ = options_.files.size();
+  }
+  has_files_.notify_all();
 }
 
 BuildingList OpenBuildings::list() const {
@@ -83,18 +125,11 @@ bool OpenBuildings::has_truth() const {
   return !truth_.empty();
 }
 
-Vec3 OpenBuildings::origin_m() const {
+std::shared_ptr<const std::vector<Standing>> OpenBuildings::standings() const {
   const std::lock_guard lock(mutex_);
-  if (!origin_m_ && !read_.empty()) {
-    origin_m_ = read_.front().building->frame.origin_m;
-    for (const BuildingOfFile& read : read_) {
-      const Vec3& corner = read.building->frame.origin_m;
-      origin_m_->x = std::min(origin_m_->x, corner.x);
-      origin_m_->y = std::min(origin_m_->y, corner.y);
-      origin_m_->z = std::min(origin_m_->z, corner.z);
-    }
-  }
-  return origin_m_.value_or(Vec3{});
+  if (!standings_ || standings_->size() != standees_.size())
+    standings_ = std::make_shared<const std::vector<Standing>>(studio::standings(standees_));
+  return standings_;
 }
 
 void OpenBuildings::add_issues(const std::vector<Issue>& issues) {
@@ -103,8 +138,25 @@ void OpenBuildings::add_issues(const std::vector<Issue>& issues) {
 }
 
 void OpenBuildings::run() {
+  {
+    std::unique_lock lock(mutex_);
+    has_files_.wait(lock, [this] { return is_ending_ || !options_.files.empty(); });
+  }
   read_truth_files();
-  for (std::size_t i = 0; i < options_.files.size() && !is_ending_; ++i) read_file(i);
+  for (std::size_t i = 0; i < options_.files.size() && !is_ending_; ++i) {
+    if (corners_ <= options_.most_corners) {
+      read_file(i);
+      continue;
+    }
+    const std::lock_guard lock(mutex_);
+    issues_.push_back(issue_of_file(
+        options_.files[i],
+        fmt::format("passed over, as are all after it ({} of {} files): the studio keeps no more "
+                    "than {} buildings of this size; open fewer at a time",
+                    options_.files.size() - i, options_.files.size(), read_.size())));
+    files_left_ = 0;
+    break;
+  }
   std::size_t count = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -150,20 +202,33 @@ void OpenBuildings::read_file(std::size_t number) {
       Reader reader(path, options_.read);
       while (auto record = reader.next()) {
         if (is_ending_) break;
+        if (corners_ > options_.most_corners) {
+          issues.push_back(issue_of_file(path,
+                                         "its further buildings are passed over: the studio "
+                                         "keeps no more; open fewer at a time"));
+          break;
+        }
         issues.insert(issues.end(), record->issues.begin(), record->issues.end());
         if (!record->value) continue;
         const auto document = std::make_shared<const Document>(std::move(*record->value));
-        for (const Building& building : document->buildings)
+        for (const Building& building : document->buildings) {
           read.push_back({path, document, &building});
+          for (const Polygon& polygon : building.polygons)
+            for (const auto& ring : polygon.rings) corners_ += ring.size();
+        }
       }
     }
   } catch (const InputError& fault) {
     issues.push_back(fault.issue());
   }
   add_issues(issues);
+  std::vector<Standee> standees;
+  for (const BuildingOfFile& each : read)
+    standees.push_back({path, box_of(*each.building), each.building->frame.origin_m});
   const std::lock_guard lock(mutex_);
   --files_left_;
   read_.insert(read_.end(), read.begin(), read.end());
+  standees_.insert(standees_.end(), standees.begin(), standees.end());
   buildings_.resize(read_.size());
 }
 

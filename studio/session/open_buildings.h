@@ -7,8 +7,10 @@
 #include "oriel/result.h"
 #include "oriel/score.h"
 #include "studio/session/session.h"
+#include "studio/session/standing.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -60,6 +62,11 @@ struct LoadingState {
 class OpenBuildings {
  public:
   explicit OpenBuildings(const SessionOptions& options);
+  /// Writes the samples that the options have, where there are none in their folder, and opens
+  /// them. Throws RefusedRequest: 409 there are buildings, else as save_file() does.
+  void open_samples();
+  /// True as long as there are no files, but samples.
+  [[nodiscard]] bool offers_samples() const;
   /// Waits for the building at work only.
   ~OpenBuildings();
   OpenBuildings(const OpenBuildings&) = delete;
@@ -73,26 +80,32 @@ class OpenBuildings {
   [[nodiscard]] std::vector<Issue> issues() const;
   /// True if files of truth were given that could be read.
   [[nodiscard]] bool has_truth() const;
-  /// The smallest corner of the buildings that were read by then; the same for ever once it was
-  /// asked for, so that all geometry lies in one frame.
-  [[nodiscard]] Vec3 origin_m() const;
+  /// Where those stand that were read by then, by number; the same for ever once all are read,
+  /// which is before one is segmented.
+  [[nodiscard]] std::shared_ptr<const std::vector<Standing>> standings() const;
 
  private:
   void run();
   void read_truth_files();
   void read_file(std::size_t number);
   void segment_building(std::size_t number);
+  [[nodiscard]] std::string sample_path(const std::string& name) const;
   void add_issues(const std::vector<Issue>& issues);
 
-  const SessionOptions options_;
+  /// Its files and truth are those of the samples once these are asked for.
+  SessionOptions options_;
   mutable std::mutex mutex_;
+  std::condition_variable has_files_;
   std::vector<BuildingOfFile> read_;
   BuildingList buildings_;
   std::size_t files_left_ = 0;
   std::size_t done_ = 0;
   std::vector<Issue> issues_;
+  /// Of what is read; only the thread asks for it.
+  std::size_t corners_ = 0;
   std::map<std::string, std::vector<ExpectedObject>> truth_;
-  mutable std::optional<Vec3> origin_m_;
+  std::vector<Standee> standees_;
+  mutable std::shared_ptr<const std::vector<Standing>> standings_;
   std::atomic<bool> is_ending_ = false;
   /// The last member: it works with all of them.
   std::thread thread_;

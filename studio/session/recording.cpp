@@ -169,7 +169,7 @@ std::vector<RecordedFeature> Recording::State::features_of(const OpenBuilding& o
 
 std::string Recording::State::geometry_of(std::size_t number, const OpenBuilding& open) {
   if (!origin_m) origin_m = open.building->frame.origin_m;
-  return base64(building_bytes({{number, &open}}, *origin_m));
+  return base64(building_bytes({{number, &open, *origin_m}}));
 }
 
 int Recording::State::class_of(const std::string& label) {
@@ -188,7 +188,7 @@ void Recording::add(const Building& building, const PipelineResult& line) {
   state_->places[building.id] = number;
   RecordedBuilding& recorded = state_->buildings.emplace_back();
   recorded.geometry = state_->geometry_of(number, open);
-  recorded.entry = building_entry(open, &open, *state_->origin_m);
+  recorded.entry = building_entry(open, &open, {*state_->origin_m});
   recorded.surfaces = surfaces_json(explain_surfaces(building, line, state_->all.rules));
   auto labels = std::make_shared<LabelledFeatures>();
   labels->since = state_->all.number;

@@ -3,6 +3,7 @@
 #include "oriel/explain.h"
 #include "studio/session/labels/labelled_buildings.h"
 #include "studio/session/request_body.h"
+#include "studio/session/standing.h"
 
 #include <cstddef>
 #include <string>
@@ -16,6 +17,8 @@ namespace oriel::studio {
 struct NumberedBuilding {
   std::size_t number = 0;
   const OpenBuilding* open = nullptr;
+  /// The place that is the origin of its numbers.
+  Vec3 origin_m;
 };
 
 /// What a picture needs of buildings, as bytes that a browser reads without looking at every
@@ -35,12 +38,12 @@ struct NumberedBuilding {
 /// The lists but the first have 2 bytes a number if `are_few`, else 4.
 ///
 /// The JSON text: {"buildings": [{number, base_mm, is_short, are_few, vertices, polygons, rings,
-/// corners, owners (how many of each), storeys_mm}]}; millimetres from `origin_m`.
-std::string building_bytes(const std::vector<NumberedBuilding>& buildings, const Vec3& origin_m);
+/// corners, owners (how many of each), storeys_mm}]}; millimetres from the origin of each.
+std::string building_bytes(const std::vector<NumberedBuilding>& buildings);
 
 /// Gives a building of the verb `state`; `open` is null while it is not loaded.
 StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
-                          const Vec3& origin_m);
+                          const Standing& standing);
 
 /// Gives the features of a building for `features`; without `interpretation` names have no labels.
 StudioJson features_json(const OpenBuilding& open, const Interpretation* interpretation);

@@ -27,6 +27,11 @@ const std::map<std::string_view, Verb>& verbs() {
       {"features", answer_features},
       {"learn", answer_learn},
       {"pack", [](Desk& desk, const RequestBody& body) { return desk.runner.run(body); }},
+      {"samples",
+       [](Desk& desk, const RequestBody&) {
+         desk.buildings.open_samples();
+         return StudioJson{{"folder", desk.options.samples_folder}};
+       }},
       {"save", [](Desk& desk, const RequestBody& body) { return desk.file.save(body); }},
       {"scale", answer_scale},
       {"search", answer_search},

@@ -5,10 +5,12 @@
 #include "oriel/read.h"
 #include "studio/session/work_log.h"
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace oriel::studio {
@@ -18,6 +20,13 @@ struct SessionOptions {
   /// Files of buildings, in their order; buildings are numbered in it.
   std::vector<std::string> files;
   ReadOptions read;
+  /// Texts of files by their names, and the folder to which the verb `samples` writes them: what is
+  /// offered where there are no files.
+  std::vector<std::pair<std::string, std::string_view>> samples;
+  std::string samples_folder = "oriel-samples";
+  /// What is read after so many corners of polygons is passed over: what is kept of each takes
+  /// some 400 bytes.
+  std::size_t most_corners = 20'000'000;
   /// How buildings become features and labels; `corrections` is left aside, and `corrections` below
   /// holds.
   LabelOptions label;

@@ -96,10 +96,10 @@ StudioJson storeys_json(const OpenBuilding& open, const Vec3& origin_m) {
 
 }  // namespace
 
-std::string building_bytes(const std::vector<NumberedBuilding>& buildings, const Vec3& origin_m) {
+std::string building_bytes(const std::vector<NumberedBuilding>& buildings) {
   StudioJson entries = StudioJson::array();
   std::string lists;
-  for (const auto& [number, open] : buildings) {
+  for (const auto& [number, open, origin_m] : buildings) {
     FlatBuilding flat;
     flatten_vertices(*open, origin_m, flat);
     flatten_polygons(*open, flat);
@@ -131,12 +131,6 @@ namespace {
 /// What the slider of scales stops at: denominators.
 constexpr int kScales[] = {1, 500, 1000, 2500, 5000, 10000, 25000};
 
-Box box_of(const Building& building) {
-  Box box;
-  for (const Vec3& vertex : building.vertices) box.grow(vertex + building.frame.origin_m);
-  return box;
-}
-
 /// The levels of detail that the profile "lod" has, from fine to coarse.
 const std::vector<std::string>& levels_of_detail() {
   static const std::vector<std::string> levels = [] {
@@ -154,7 +148,8 @@ const std::vector<std::string>& levels_of_detail() {
 }  // namespace
 
 StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
-                          const Vec3& origin_m) {
+                          const Standing& standing) {
+  const auto& [origin_m, away_m, is_moved] = standing;
   const Box box = box_of(*read.building);
   const bool is_flat = box.is_empty();
   StudioJson entry{{"id", read.building->id},
@@ -165,6 +160,8 @@ StudioJson building_entry(const BuildingOfFile& read, const OpenBuilding* open,
                    {"size_m", point_json(is_flat ? Vec3{} : box.max - box.min)},
                    {"issues", StudioJson::array()},
                    {"is_open", open != nullptr && open->segmented.is_open()}};
+  if (away_m > 0) entry["away_m"] = std::round(away_m);
+  if (is_moved) entry["is_moved"] = true;
   if (open != nullptr)
     for (const Issue& issue : open->segmented.issues)
       if (issue.severity != Severity::note) entry["issues"].push_back(issue_json(issue));
@@ -199,31 +196,35 @@ StudioJson answer_state(Desk& desk, const RequestBody& /*body*/) {
   const LoadingState loading = desk.buildings.loading();
   const auto read = desk.buildings.read();
   const BuildingList list = desk.buildings.list();
-  const Vec3 origin_m = desk.buildings.origin_m();
+  const auto standings = desk.buildings.standings();
   StudioJson buildings = StudioJson::array();
-  for (std::size_t i = 0; i < read.size(); ++i)
+  for (std::size_t i = 0; i < std::min(read.size(), standings->size()); ++i)
     buildings.push_back(
-        building_entry(read[i], i < list.size() ? list[i].get() : nullptr, origin_m));
+        building_entry(read[i], i < list.size() ? list[i].get() : nullptr, (*standings)[i]));
   std::vector<Issue> issues = desk.buildings.issues();
   issues.insert(issues.end(), desk.corrections.issues().begin(), desk.corrections.issues().end());
+  StudioJson faults = StudioJson::array();
+  for (const Issue& issue : issues)
+    faults.emplace_back(issue_json(issue))["file"] = issue.place.file;
   return {{"program", fmt::format("oriel {}", kVersion)},
           {"pack", desk.file.state()},
-          {"origin_m", point_json(origin_m)},
           {"buildings", std::move(buildings)},
           {"has_truth", desk.buildings.has_truth() || !desk.corrections.list().empty()},
           {"corrections", desk.corrections.path()},
           {"scales", kScales},
           {"lods", levels_of_detail()},
-          {"issues", issues_json(issues)},
+          {"issues", std::move(faults)},
+          {"offers_samples", desk.buildings.offers_samples()},
           {"loading", {{"done", loading.done}, {"all", loading.all}}}};
 }
 
 std::string geometry_bytes(Desk& desk, const RequestBody& body) {
+  const auto standings = desk.buildings.standings();
   const BuildingList list = desk.buildings.list();
   std::vector<NumberedBuilding> loaded;
   for (const std::size_t number : body.numbers("buildings", list.size(), "building"))
-    if (list[number]) loaded.push_back({number, list[number].get()});
-  return building_bytes(loaded, desk.buildings.origin_m());
+    if (list[number]) loaded.push_back({number, list[number].get(), (*standings)[number].origin_m});
+  return building_bytes(loaded);
 }
 
 StudioJson answer_features(Desk& desk, const RequestBody& body) {

@@ -171,7 +171,8 @@ ScaleCache::Answer drawn(Desk& desk, const AskedBuilding& asked, const Targets& 
       generalise(*open.document, *open.building, result, rules, targets, options);
   if (made.is_given_up) return nullptr;
   StudioJson answer = StudioJson::object();
-  RedrawnWriter(open, desk.buildings.origin_m()).write(made, answer);
+  const Vec3 origin_m = (*desk.buildings.standings())[asked.number].origin_m;
+  RedrawnWriter(open, origin_m).write(made, answer);
   answer["note"] = asked.all->buildings.size() > 1
                        ? "this building is drawn alone; the other buildings are not looked at and "
                          "stay as they are"

@@ -24,7 +24,7 @@ std::optional<std::string> asked_class(const RequestBody& body) {
 
 StudioJson answer_truth(Desk& desk, const RequestBody& body) {
   const BuildingList list = desk.buildings.list();
-  const Vec3 origin_m = desk.buildings.origin_m();
+  const auto standings = desk.buildings.standings();
   const auto truth = desk.corrections.truth();
   StudioJson objects = StudioJson::array();
   for (const std::size_t number : body.numbers("buildings", list.size(), "building")) {
@@ -36,7 +36,7 @@ StudioJson answer_truth(Desk& desk, const RequestBody& body) {
       objects.push_back({{"building", number},
                          {"class", object.label},
                          {"id", object.id},
-                         {"box_mm", box_mm_json(object.box, origin_m)}});
+                         {"box_mm", box_mm_json(object.box, (*standings)[number].origin_m)}});
     }
   }
   return {{"objects", std::move(objects)}};

@@ -28,6 +28,47 @@ TEST_SUITE("studio/session") {
     }
   }
 
+  TEST_CASE("files on one spot stand side by side in state and geometry") {
+    StudioBench bench;
+    const json buildings = bench.ask("state", json::object())["buildings"];
+    for (const json& building : buildings) CHECK(building["is_moved"] == true);
+    const double end =
+        buildings[0]["at_m"][0].get<double>() + buildings[0]["size_m"][0].get<double>();
+    CHECK(buildings[1]["at_m"][0].get<double>() > end);
+  }
+
+  TEST_CASE("what is more than a studio keeps is passed over and said") {
+    studio::SessionOptions options = sample_options();
+    options.most_corners = 1;
+    StudioBench bench(std::move(options));
+    const json state = bench.ask("state", json::object());
+    REQUIRE(state["buildings"].size() == 1);
+    CHECK(state["buildings"][0]["features"] > 0);
+    REQUIRE(state["issues"].size() == 1);
+    CHECK(state["issues"][0]["code"] == "E123");
+    CHECK(state["issues"][0]["file"] == sample_file("l-house.stripped.city.json"));
+  }
+
+  TEST_CASE("a studio without files writes and opens its samples when it is asked") {
+    const StudioFolder folder("samples");
+    std::ifstream in(sample_file("house.stripped.city.json"));
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    studio::SessionOptions options;
+    options.corrections.clear();
+    options.samples = {{"house.city.json", text}, {"experiment.yaml", "x"}};
+    options.samples_folder = folder.file("new");
+    {
+      StudioBench bench(options);
+      CHECK(bench.ask("state", json::object())["offers_samples"] == true);
+      CHECK(bench.ask("samples", json::object())["folder"] == folder.file("new"));
+      CHECK(bench.refusal("samples", "{}").first == 409);
+    }
+    StudioBench again(options);
+    const json state = again.ask("state", json::object());
+    CHECK(state["offers_samples"] == false);
+    CHECK(state["buildings"].size() == 1);
+  }
+
   TEST_CASE("geometry refers to vertices and features that are there") {
     StudioBench bench;
     const auto buildings = read_bytes(bench.bytes("geometry", {{"buildings", {0, 1}}}));

@@ -1,0 +1,189 @@
+#include "studio/session/standing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace oriel::studio {
+
+namespace {
+
+/// Buildings in cells that touch each other are of one place.
+constexpr double kCell_m = 5000;
+/// Boxes of which so much of both together is in both: bodies do not lie so to each other.
+constexpr double kShared = 0.2;
+constexpr double kLeastGap_m = 4;
+/// Rows are so much longer than they are many: a picture is wider than it is high.
+constexpr double kWide = 2.5;
+
+using Cell = std::array<long long, 3>;
+using Numbers = std::vector<std::size_t>;
+
+Vec3 middle_of(const Box& box) { return 0.5 * (box.min + box.max); }
+
+Cell cell_of(const Box& box) {
+  const Vec3 at = middle_of(box);
+  const auto along = [](double x) { return std::llround(std::floor(x / kCell_m)); };
+  return {along(at.x), along(at.y), along(at.z)};
+}
+
+/// The cells around that with the most buildings, as far as one touches the next.
+std::set<Cell> main_cells(std::span<const Standee> all) {
+  std::map<Cell, std::size_t> counts;
+  for (const Standee& one : all)
+    if (!one.box_m.is_empty()) ++counts[cell_of(one.box_m)];
+  if (counts.empty()) return {};
+  const auto most =
+      std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; });
+  const Cell fullest = most->first;
+  std::set<Cell> near{fullest};
+  std::vector<Cell> ends{fullest};
+  while (!ends.empty()) {
+    const Cell from = ends.back();
+    ends.pop_back();
+    for (int i = 0; i < 27; ++i) {
+      const Cell next{from[0] + i % 3 - 1, from[1] + i / 3 % 3 - 1, from[2] + i / 9 - 1};
+      if (counts.contains(next) && near.insert(next).second) ends.push_back(next);
+    }
+  }
+  return near;
+}
+
+bool lie_upon_each_other(const Box& a, const Box& b) {
+  const auto area = [](double x, double y) { return std::max(0.0, x) * std::max(0.0, y); };
+  const double shared = area(std::min(a.max.x, b.max.x) - std::max(a.min.x, b.min.x),
+                             std::min(a.max.y, b.max.y) - std::max(a.min.y, b.min.y));
+  const double both = area(a.max.x - a.min.x, a.max.y - a.min.y) +
+                      area(b.max.x - b.min.x, b.max.y - b.min.y) - shared;
+  const bool are_level = a.min.z < b.max.z && b.min.z < a.max.z;
+  return are_level && shared > kShared * both;
+}
+
+/// Which buildings lie upon one of their own file, and upon one of another.
+struct Lying {
+  std::vector<bool> in_file, across;
+};
+
+Lying lying(std::span<const Standee> all, Numbers near) {
+  Lying found{std::vector<bool>(all.size()), std::vector<bool>(all.size())};
+  std::ranges::sort(near, {}, [&](std::size_t i) { return std::pair(all[i].box_m.min.x, i); });
+  for (std::size_t p = 0; p < near.size(); ++p)
+    for (std::size_t q = p + 1; q < near.size(); ++q) {
+      const std::size_t i = near[p], j = near[q];
+      if (all[j].box_m.min.x >= all[i].box_m.max.x) break;
+      auto& lists = all[i].file == all[j].file ? found.in_file : found.across;
+      if ((lists[i] && lists[j]) || !lie_upon_each_other(all[i].box_m, all[j].box_m)) continue;
+      lists[i] = lists[j] = true;
+    }
+  return found;
+}
+
+/// What keeps together, in the order of the files: a file, or a building of one whose buildings lie
+/// upon each other. Only those that have to move.
+std::vector<Numbers> moving_units(std::span<const Standee> all, const Numbers& near) {
+  const Lying found = lying(all, near);
+  std::vector<Numbers> units, files;
+  for (const std::size_t i : near) {
+    if (files.empty() || all[files.back().front()].file != all[i].file) files.emplace_back();
+    files.back().push_back(i);
+  }
+  for (const Numbers& file : files) {
+    const auto lies_in = [&](std::size_t i) { return bool(found.in_file[i]); };
+    const auto lies_across = [&](std::size_t i) { return bool(found.across[i]); };
+    if (2 * static_cast<std::size_t>(std::ranges::count_if(file, lies_in)) > file.size()) {
+      for (const std::size_t i : file)
+        if (lies_in(i) || lies_across(i)) units.push_back({i});
+    } else if (std::ranges::any_of(file, lies_across)) {
+      units.push_back(file);
+    }
+  }
+  return units;
+}
+
+Box box_of(std::span<const Standee> all, const Numbers& unit) {
+  Box box;
+  for (const std::size_t i : unit) box.grow(all[i].box_m);
+  return box;
+}
+
+}  // namespace
+
+Box box_of(const Building& building) {
+  Box box;
+  for (const Vec3& vertex : building.vertices) box.grow(vertex + building.frame.origin_m);
+  return box;
+}
+
+std::vector<Standing> standings(std::span<const Standee> all) {
+  std::vector<Standing> made(all.size());
+  const std::set<Cell> cells = main_cells(all);
+  Numbers near, far;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!all[i].box_m.is_empty()) (cells.contains(cell_of(all[i].box_m)) ? near : far).push_back(i);
+  if (near.empty()) return made;
+  const std::vector<Numbers> units = moving_units(all, near);
+  for (const Numbers& unit : units)
+    for (const std::size_t i : unit) made[i].is_moved = true;
+
+  Box whole, rest, frames;
+  for (const std::size_t i : near) {
+    whole.grow(all[i].box_m);
+    if (made[i].is_moved) continue;
+    rest.grow(all[i].box_m);
+    frames.grow(all[i].frame_m);
+  }
+  const Vec3 origin_m = rest.is_empty() ? whole.min : frames.min;
+  for (Standing& standing : made) standing.origin_m = origin_m;
+
+  // Rows from the back to the front, each from the left to the right.
+  std::vector<Box> boxes;
+  double area_m2 = 0, widest_m = 0;
+  for (const Numbers& unit : units) {
+    const Box& box = boxes.emplace_back(box_of(all, unit));
+    const Vec3 size = box.max - box.min;
+    widest_m = std::max(widest_m, std::max(size.x, size.y));
+    area_m2 += (size.x + kLeastGap_m) * (size.y + kLeastGap_m);
+  }
+  const double gap_m = std::max(kLeastGap_m, std::min(widest_m / 4, 5 * kLeastGap_m));
+  const double row_m = std::sqrt(kWide * area_m2);
+  const double begin_m = rest.is_empty() ? 0 : rest.max.x - origin_m.x + gap_m;
+  const double ground_m = rest.is_empty() ? 0 : rest.min.z - origin_m.z;
+  double x = begin_m, y = 0, depth_m = 0, end_m = begin_m;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Vec3 size = boxes[i].max - boxes[i].min;
+    if (x > begin_m && x + size.x > begin_m + row_m) {
+      x = begin_m;
+      y -= depth_m + gap_m;
+      depth_m = 0;
+    }
+    for (const std::size_t number : units[i])
+      made[number].origin_m = boxes[i].min - Vec3{x, y - size.y, ground_m};
+    x += size.x + gap_m;
+    end_m = std::max(end_m, x);
+    depth_m = std::max(depth_m, size.y);
+  }
+
+  // Floats would not tell apart the corners of a house that is far from the origin: what is far is
+  // put out of sight, but no farther; what is of one cell stays together, unless it lies upon each
+  // other.
+  double out_of_sight_m = std::max(end_m, whole.max.x - whole.min.x) + 4 * kCell_m;
+  for (const std::size_t i : far) {
+    const Cell cell = cell_of(all[i].box_m);
+    const auto at = [&](std::size_t axis) { return static_cast<double>(cell[axis]) * kCell_m; };
+    made[i].origin_m = Vec3{at(0), at(1), at(2)} - Vec3{out_of_sight_m, 0, 0};
+    made[i].away_m = length(middle_of(all[i].box_m) - middle_of(whole));
+  }
+  for (const Numbers& unit : moving_units(all, far)) {
+    const Box box = box_of(all, unit);
+    for (const std::size_t i : unit)
+      made[i].origin_m = box.min - Vec3{out_of_sight_m + 2 * kCell_m, 0, 0};
+    out_of_sight_m += box.max.x - box.min.x + gap_m;
+  }
+  return made;
+}
+
+}  // namespace oriel::studio
