@@ -141,11 +141,12 @@ std::vector<Standing> standings(std::span<const Standee> all) {
 
   // Rows from the back to the front, each from the left to the right.
   std::vector<Box> boxes;
-  double area_m2 = 0, widest_m = 0;
+  double area_m2 = 0, widest_m = 0, tallest_m = 0;
   for (const Numbers& unit : units) {
     const Box& box = boxes.emplace_back(box_of(all, unit));
     const Vec3 size = box.max - box.min;
-    widest_m = std::max(widest_m, std::max(size.x, size.y));
+    widest_m = std::max({widest_m, size.x, size.y});
+    tallest_m = std::max(tallest_m, size.z);
     area_m2 += (size.x + kLeastGap_m) * (size.y + kLeastGap_m);
   }
   const double gap_m = std::max(kLeastGap_m, std::min(widest_m / 4, 5 * kLeastGap_m));
@@ -157,7 +158,7 @@ std::vector<Standing> standings(std::span<const Standee> all) {
     const Vec3 size = boxes[i].max - boxes[i].min;
     if (x > begin_m && x + size.x > begin_m + row_m) {
       x = begin_m;
-      y -= depth_m + gap_m;
+      y -= depth_m + gap_m + tallest_m / 2;
       depth_m = 0;
     }
     for (const std::size_t number : units[i])

@@ -12,12 +12,14 @@ import {partTools} from './truth/part_tools';
 import {samplesPanel} from './truth/samples';
 import {truthPanel} from './truth/truth';
 import {scalePanel} from './scale/scale';
+import {bindWelcome} from './shell/welcome';
 
 const token = new URLSearchParams(location.search).get('token') ?? '';
 const workbench = new Workbench(new ServerSource(token), new Store(), words.shell.title);
 workbench.addLeft(editorPanel, paramsPanel, outlinePanel);
 workbench.addRight(changesPanel, truthPanel, samplesPanel, scalePanel);
 bindCorrections(workbench);
+bindWelcome(workbench);
 workbench.partTools = (part, answer) => partTools(workbench, part, answer);
 // For scripts that drive the page, as the browser tests do.
 Object.assign(window, {oriel: workbench});

@@ -22,7 +22,10 @@ export class PackRunner {
       throw error;
     }
     if (version !== this.version) return this.keepLabels(answer);
-    this.store.set({version, is_good: answer.is_good, findings: answer.findings, ms: answer.ms});
+    // Where nothing is written yet, nothing is wrong.
+    const isNew = text.trim() === '';
+    this.store.set({version, is_good: answer.is_good || isNew, findings: isNew ? [] : answer.findings, ms: answer.ms});
+    if (isNew) this.clear();
     if (answer.is_good) this.take(answer);
     return true;
   }
@@ -31,6 +34,11 @@ export class PackRunner {
   private keepLabels(answer: PackAnswer): boolean {
     if (answer.is_good) this.take(answer);
     return false;
+  }
+
+  private clear(): void {
+    this.number = 0;
+    this.store.set({labels: new Map(), classes: [], params: [], counts: [], unknown: 0, doubtful: [], score: null});
   }
 
   private take(answer: PackAnswer): void {

@@ -71,7 +71,7 @@ export class RecordedSource implements Source {
     return {parts, buildings: [], findings: []};
   }
 
-  language = lacks; curve = lacks; correct = lacks; corrections = lacks; ask = lacks; learn = lacks; scale = lacks; scaleProgress = lacks; stopScale = lacks; acceptProposal = lacks; save = lacks; disk = lacks;
+  language = lacks; curve = lacks; correct = lacks; corrections = lacks; ask = lacks; learn = lacks; scale = lacks; scaleProgress = lacks; stopScale = lacks; acceptProposal = lacks; save = lacks; disk = lacks; openSamples = lacks;
   truth = lacks;
 }
 

@@ -113,6 +113,7 @@ export class ServerSource implements Source {
   stopScale() { return this.post('scale', {stop: true}); }
   acceptProposal(index: number, text: string) { return this.post('learn', {accept: index, text}); }
   save(question: SaveQuestion) { return this.post('save', question); }
+  openSamples() { return this.post('samples', {}); }
   disk() { return this.post('disk', {}); }
   truth(buildings: number[]) { return this.post('truth', {buildings}); }
 }

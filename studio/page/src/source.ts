@@ -2,30 +2,34 @@
 // source fulfil (ServerSource: the studio; RecordedSource: the file that `oriel view` writes).
 //
 // Buildings have numbers, features have indices in their building. Lengths are in metres, but vertices and boxes are in
-// millimetres from `State.origin_m`. Lines and columns begin at 1; columns are UTF-16 units, as strings of JavaScript have them.
+// millimetres from the origin of the picture. Lines and columns begin at 1; columns are UTF-16 units, as strings of JavaScript have them.
 
 export type Vec3 = [number, number, number];
 export type BoxMm = [number, number, number, number, number, number];
 /** A feature: the number of its building and its index there. */
 export type Part = [building: number, feature: number];
 
-export interface Issue { code: string; severity: 'error' | 'warning' | 'note'; sentence: string }
+export interface Issue { code: string; severity: 'error' | 'warning' | 'note'; sentence: string; file?: string }
 
 // ---- state, geometry, surfaces ----
 
 export interface PackInfo { name: string; path: string | null; text: string; hash: string; is_writable: boolean }
 export interface BuildingEntry {
   id: string; file: string; features: number; issues: Issue[];
-  /** The smallest corner of the building's box, from `origin_m`, and the size of the box. */
+  /** The smallest corner of the building's box in the picture, and the size of the box. */
   at_m: Vec3; size_m: Vec3;
+  /** How far it lies from the others where that is too far for one picture, and whether it lay upon others and stands beside them. */
+  away_m?: number; is_moved?: boolean;
   /** False while it is not segmented yet: it has no geometry. */
   is_loaded: boolean;
   /** True if it is no closed body. */
   is_open: boolean;
 }
 export interface StateAnswer {
-  program: string; pack: PackInfo; origin_m: Vec3; buildings: BuildingEntry[]; has_truth: boolean;
-  corrections: string; scales: number[]; lods: string[]; loading: {done: number; all: number};
+  program: string; pack: PackInfo; buildings: BuildingEntry[]; has_truth: boolean;
+  corrections: string; scales: number[]; lods: string[]; issues: Issue[]; loading: {done: number; all: number};
+  /** True where there are no files, but samples that can be opened. */
+  offers_samples?: boolean;
 }
 
 /** The polygons of a building in flat lists (scene/shape.ts reads them). Vertex v lies at base_mm + vertices_mm[3 v, 3 v + 1, 3 v + 2]. */
@@ -190,5 +194,7 @@ export interface Source {
   stopScale(): Promise<unknown>;
   save(question: SaveQuestion): Promise<SaveAnswer>;
   disk(): Promise<DiskAnswer>;
+  /** Writes the sample houses into a folder and opens them. */
+  openSamples(): Promise<{folder: string}>;
   truth(buildings: number[]): Promise<TruthAnswer>;
 }

@@ -1,7 +1,7 @@
 // What the page knows, in one place. Parts of the page read `store.value`, change it by `set`, and are called when a field that
 // they watch has changed. Changes of one turn of the event loop come as one call.
 import type {
-  BuildingEntry, Change, ClassEntry, Feature, Finding, ParamEntry, PackInfo, Part, Score, Shape, TruthObject, Vec3
+  BuildingEntry, Change, ClassEntry, Feature, Finding, Issue, ParamEntry, PackInfo, Part, Score, Shape, TruthObject
 } from './source';
 
 /** What is chosen: a feature, a surface (the index of a polygon of the building), or a whole building. */
@@ -15,10 +15,12 @@ export type ColourMode = 'colour' | 'pattern' | 'heat';
 export interface Values {
   program: string;
   pack: PackInfo;
-  origin_m: Vec3;
   buildings: BuildingEntry[];
   loading: {done: number; all: number};
   has_truth: boolean;
+  /** What is wrong with files as a whole. */
+  issues: Issue[];
+  offers_samples: boolean;
   corrections: string;
   scales: number[];
   lods: string[];
@@ -45,6 +47,8 @@ export interface Values {
   ms: number;
 
   selection: Selection | null;
+  /** The building that alone is in the picture; null: all are. */
+  only: number | null;
   /** Several parts at once: what a search or a cell of the confusion table has found. */
   found: Part[];
   found_title: string;
@@ -68,11 +72,11 @@ export interface Values {
 }
 
 export const kInitial: Values = {
-  program: '', pack: {name: '', path: null, text: '', hash: '', is_writable: false}, origin_m: [0, 0, 0], buildings: [],
-  loading: {done: 0, all: 0}, has_truth: false, corrections: '', scales: [], lods: [], geometry: new Map(), features: new Map(),
+  program: '', pack: {name: '', path: null, text: '', hash: '', is_writable: false}, buildings: [],
+  loading: {done: 0, all: 0}, has_truth: false, issues: [], offers_samples: false, corrections: '', scales: [], lods: [], geometry: new Map(), features: new Map(),
   text: '', version: 0, is_good: true, findings: [], classes: [], params: [], labels: new Map(), counts: [], unknown: 0,
   doubtful: [], score: null, changed: [], changed_count: 0, ms: 0,
-  selection: null, found: [], found_title: '', hover: null, filter: {hidden: new Set()}, colours: 'colour', heat: 'unknown', truth: [],
+  selection: null, only: null, found: [], found_title: '', hover: null, filter: {hidden: new Set()}, colours: 'colour', heat: 'unknown', truth: [],
   shows_truth: false, shows_changes: true, shows_hidden_lines: false, shows_relations: true, is_measuring: false, relation: null,
   is_dark: false, message: '', is_message_grave: false
 };
@@ -116,6 +120,29 @@ export class Store {
     for (const watcher of [...this.watchers])
       if ([...keys].some(key => watcher.keys.has(key))) watcher.call();
   }
+}
+
+const namesOf = new WeakMap<readonly BuildingEntry[], string[]>();
+
+/** The name of a building: its id, and of those with one id that of the file as well. */
+export function nameOf({buildings}: Readonly<Values>, building: number): string {
+  let names = namesOf.get(buildings);
+  if (!names) namesOf.set(buildings, names = toldApart(buildings));
+  return names[building] ?? '';
+}
+
+function toldApart(buildings: readonly BuildingEntry[]): string[] {
+  let names = buildings.map(({id}) => id);
+  const stemOf = (file: string) => file.replace(/.*[/\\]/, '').replace(/(\.city)?\.[a-z]+$/i, '');
+  const together = (id: string, more: string) => (more.startsWith(id) ? more : `${id} · ${more}`);
+  for (const more of [({id, file}: BuildingEntry) => together(id, stemOf(file)), ({id, file}: BuildingEntry) => `${id} · ${file}`,
+    ({id, file}: BuildingEntry, i: number) => `${id} · ${file} · ${i + 1}`]) {
+    const counts = new Map<string, number>();
+    for (const name of names) counts.set(name, (counts.get(name) ?? 0) + 1);
+    if (counts.size === names.length) break;
+    names = names.map((name, i) => (counts.get(name)! > 1 ? more(buildings[i]!, i) : name));
+  }
+  return names;
 }
 
 /** The class number of a feature, -1 where it has no label (yet). */

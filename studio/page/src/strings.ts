@@ -27,6 +27,8 @@ export const words = {
     close: 'Close', open: 'Open',
     divider: 'Width of the rules', sheet: 'Height of the panel',
     loading: (done: number, all: number) => `${done.toLocaleString('en')} of ${count(all, 'building', 'buildings')}`,
+    loadBar: 'Buildings that are loaded',
+    noneGood: 'The pack has errors, so nothing is labelled yet; they are listed below it.',
     keep: 'The pack has errors. You see the labels of the last good version.',
     unknown: (n: number) => `${n.toLocaleString('en')} unknown`,
     features: (n: number) => count(n, 'feature', 'features'),
@@ -35,6 +37,14 @@ export const words = {
     theme: 'Dark or light', help: 'Keys',
     noWebGl: 'This browser draws no 3D (WebGL 2 is missing). Lists, search and explanations work.'
   },
+  welcome: {
+    title: 'No buildings here yet',
+    how: 'Start the studio with files or a folder of buildings, as in oriel studio houses/. Or begin with three sample houses and what is true of them; they are put into a folder oriel-samples.',
+    samples: 'Open the sample houses', packs: 'A pack to begin with', experiment: 'An experiment',
+    experimentHow: 'What is each rule worth? It comes with the sample houses:',
+    command: 'oriel experiment run oriel-samples/experiment.yaml -o results',
+    opened: (folder: string) => `The sample houses, their truth and an experiment are in ${folder}.`
+  },
   keys: [
     ['← → ↑ ↓', 'turn the building (in its picture)'],
     ['⇧ ← →', 'move it'],
@@ -42,6 +52,7 @@ export const words = {
     ['F', 'see everything, or what is chosen'],
     ['1 2 3', 'from the front, from the side, from above'],
     ['H', 'hidden lines'],
+    ['O', 'only the chosen building, or all'],
     ['X', 'cut'],
     ['M', 'measure'],
     ['R', 'relations of the chosen part'],
@@ -62,9 +73,13 @@ export const words = {
   ] as [string, string][],
   scene: {
     name: 'The buildings in 3D. Arrow keys turn, with shift they move, plus and minus zoom, N goes to the next unknown part.',
-    tools: 'Tools of the picture', fit: 'See everything', hiddenLines: 'Hidden lines', section: 'Cut', measure: 'Measure', relations: 'Relations',
+    tools: 'Tools of the picture', fit: 'See everything', only: 'Only this building', hiddenLines: 'Hidden lines', section: 'Cut', measure: 'Measure', relations: 'Relations',
     changes: 'What changed', truth: 'Truth', colours: 'Colours', colour: 'Colours', pattern: 'Patterns', heat: 'Heat map', heatOf: 'Heat map of',
     heatKinds: {unknown: 'unknown parts', doubtful: 'doubtful parts', wrong: 'wrong parts', changed: 'changed parts'},
+    unread: (n: number, first: string) => `${count(n, 'fault', 'faults')} in what was read; the first: ${first}`,
+    moved: 'Buildings that lie upon each other stand side by side.',
+    away: (n: number) => `${count(n, 'building lies', 'buildings lie')} too far away for this picture:`,
+    awayBy: (name: string, m: number) => `${name} (${Math.round(m / 1000).toLocaleString('en')} km)`,
     unknown: 'unknown', surface: 'surface', measureHint: 'Click two points. Corners attract; Esc ends it.',
     distance: (all: number, level: number, up: number) =>
       up < 0.005 || level < 0.005 ? `${all.toFixed(2)} m` : `${all.toFixed(2)} m  (${level.toFixed(2)} level, ${up.toFixed(2)} up)`

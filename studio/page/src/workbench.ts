@@ -2,6 +2,7 @@
 import type {App, Panel} from './app';
 import {SourceError, type Feature, type Part, type Source} from './source';
 import type {Selection, Store} from './store';
+import {el} from './dom';
 import {FeatureNames} from './loading/feature_names';
 import {ShapeLoader} from './loading/shape_loader';
 import {PackRunner} from './pack_runner';
@@ -27,6 +28,8 @@ export class Workbench implements App {
   private readonly names: FeatureNames;
   readonly shapes: ShapeLoader;
   private isFollowing = false;
+  /** All has come: from now on only the reader moves the picture. */
+  private isSettled = false;
 
   constructor(readonly source: Source, readonly store: Store, title: string) {
     this.names = new FeatureNames(source, store);
@@ -37,7 +40,9 @@ export class Workbench implements App {
     this.shell = new Shell(root, store, title);
     this.scene = new BuildingScene(this.shell.sceneHost);
     this.shapes = new ShapeLoader(this, this.scene);
+    if (!this.scene.isDrawing) this.shell.sceneHost.append(el('p', {class: 'no-picture', role: 'alert'}, words.shell.noWebGl));
     bindScene(this.scene, this);
+    store.watch(['buildings', 'geometry'], () => this.frame());
     this.shell.sceneHost.append(sceneTools(this, this.scene));
     this.shell.addSearch(searchBox(this));
     this.shell.addLegend(legendPanel(this));
@@ -49,6 +54,7 @@ export class Workbench implements App {
 
   async start(): Promise<void> {
     this.shell.settle();
+    if (!this.scene.isDrawing) this.open('list');
     this.source.onRestart = () => {
       this.store.say(words.source.back, true);
       void this.followLoading();
@@ -56,6 +62,7 @@ export class Workbench implements App {
     try {
       await this.readState(true);
       await Promise.all([this.shapes.first(), this.packs.run(this.store.value.text, undefined, true)]);
+      this.frame();
     } catch (error) {
       this.tell(error);
     }
@@ -65,9 +72,10 @@ export class Workbench implements App {
   }
 
   /** Buildings that come in while the page is open are drawn and labelled. */
-  private async followLoading(): Promise<void> {
+  async followLoading(): Promise<void> {
     if (this.isFollowing) return;
     this.isFollowing = true;
+    this.isSettled = false;
     let {done, all} = this.store.value.loading;
     for (let isNew = true; isNew || done < all;) {
       if (!isNew) await new Promise(resolve => setTimeout(resolve, kPollMs));
@@ -84,17 +92,25 @@ export class Workbench implements App {
       }
     }
     this.isFollowing = false;
-    if (!this.store.value.selection && this.store.value.found.length === 0 && !this.scene.camera.isMoved) this.scene.fly(null);
+    this.frame();
+    this.isSettled = true;
+  }
+
+  /** As long as buildings come in, all of them are in the picture, unless the reader looks at something else. */
+  private frame(): void {
+    const {selection, found, buildings} = this.store.value;
+    if (buildings.length > 0 && !this.isSettled && !selection && found.length === 0 && !this.scene.camera.isMoved) this.scene.frame();
   }
 
   select(selection: Selection | null, fly = false): void {
-    this.store.set({selection, ...(selection ? {} : {found: [], found_title: ''})});
+    const {only} = this.store.value;
+    this.store.set({selection, only: selection && only !== null ? selection.building : only, ...(selection ? {} : {found: [], found_title: ''})});
     if (selection?.feature !== undefined || selection?.polygon !== undefined) this.open('explain', true);
     if (fly && selection) void this.need([selection.building]).then(() => this.scene.fly(selection));
   }
 
   show(parts: Part[], title: string): void {
-    this.store.set({found: parts, found_title: title, selection: null});
+    this.store.set({found: parts, found_title: title, selection: null, only: null});
     void this.need([...new Set(parts.map(([building]) => building))]).then(() => this.scene.flyToParts(parts));
   }
 
@@ -110,11 +126,10 @@ export class Workbench implements App {
     const state = await this.source.state();
     const {pack, buildings, loading} = state;
     this.store.set({
-      program: state.program, origin_m: state.origin_m, buildings, loading, has_truth: state.has_truth,
+      program: state.program, buildings, loading, has_truth: state.has_truth, issues: state.issues, offers_samples: state.offers_samples ?? false,
       corrections: state.corrections, scales: state.scales, lods: state.lods,
       ...(isFirst ? {pack, text: pack.text} : {})
     });
-    if (isFirst) this.scene.fly(null);
   }
 
   /** A feature or building named behind # is chosen. */

@@ -33,8 +33,14 @@ params:
   door_height: {value: 1.8 m, why: as in residential}
 `;
 
+/** Two beginnings of a pack. */
+export function starterButtons(author: Author): HTMLElement[] {
+  return [button(author, words.editor.startOpenings, kOpenings), button(author, words.editor.startExtending, kExtending)];
+}
+
 function button(author: Author, label: string, text: string): HTMLElement {
   return el('button', {type: 'button', class: 'button', onclick: () => {
+    author.app.open('editor');
     author.replaceText(text, 'input.starter');
     author.view.dispatch({selection: {anchor: text.length}});
     author.view.focus();
@@ -45,7 +51,7 @@ function button(author: Author, label: string, text: string): HTMLElement {
 export function starters(author: Author): HTMLElement {
   const box = el('div', {class: 'starters'},
     el('p', {}, words.editor.emptyPack),
-    el('p', {}, button(author, words.editor.startOpenings, kOpenings), ' ', button(author, words.editor.startExtending, kExtending)));
+    el('p', {}, ...starterButtons(author).flatMap(each => [each, ' '])));
   author.watch(() => { box.hidden = author.text.trim() !== ''; });
   return box;
 }

@@ -4,7 +4,7 @@ import {el, replace} from '../dom';
 import {looksOf, patchStyle} from '../scene/palette';
 import {ownersOf as ownersOfPolygon} from '../scene/shape';
 import {SourceError, type AttributeEntry, type ConditionRow, type ExplainAnswer, type NearestMiss, type Part, type RelationEntry, type RuleReason} from '../source';
-import {labelOf, type Selection} from '../store';
+import {labelOf, nameOf, type Selection} from '../store';
 import {words} from '../strings';
 import {isCode, missesOf, plainWords, surfaceReason} from './plain_words';
 
@@ -112,14 +112,14 @@ async function contentOf(app: App, selection: Selection, signal: AbortSignal): P
 
 function headOf(app: App, selection: Selection | null): HTMLElement[] {
   if (!selection) return [];
-  const {buildings, classes} = app.store.value;
+  const {classes} = app.store.value;
   const {building, polygon, feature} = selection;
   const name = (f: number) => classes[labelOf(app.store.value, building, f)]?.name ?? app.feature(building, f)?.kind ?? words.scene.unknown;
   const crumb = (text: string, chosen: Selection, isCurrent: boolean) => el('button', {type: 'button', class: 'crumb', 'aria-pressed': String(isCurrent),
     onclick: () => app.select(chosen)}, text);
   const owners = ownersOf(app, selection);
   return [el('nav', {class: 'crumbs', 'aria-label': words.explain.liesIn},
-    crumb(buildings[building]?.id ?? '', {building}, feature === undefined && polygon === undefined),
+    crumb(nameOf(app.store.value, building), {building}, feature === undefined && polygon === undefined),
     ...(polygon === undefined ? [] : [crumb(words.explain.surface, {building, polygon}, feature === undefined)]),
     ...owners.map(f => crumb(name(f), polygon === undefined ? {building, feature: f} : {building, polygon, feature: f}, f === feature)))];
 }
@@ -297,7 +297,7 @@ function foundList(app: App, parts: Part[], title: string): HTMLElement[] {
     el('h2', {id: 'chosen'}, title), el('p', {class: 'quiet'}, words.explain.found(parts.length)),
     el('ul', {class: 'found-list'}, ...parts.slice(0, kShown).map(([building, feature]) => el('li', {}, el('button', {type: 'button', class: 'link',
       onclick: () => app.select({building, feature}, true)}, classes[labelOf(app.store.value, building, feature)]?.name ?? words.scene.unknown),
-      ' ', el('span', {class: 'quiet small'}, app.feature(building, feature)?.name ?? '', buildings.length > 1 ? ` · ${buildings[building]?.id ?? ''}` : '')))),
+      ' ', el('span', {class: 'quiet small'}, app.feature(building, feature)?.name ?? '', buildings.length > 1 ? ` · ${nameOf(app.store.value, building)}` : '')))),
     ...(parts.length > kShown ? [el('p', {class: 'quiet small'}, words.explain.more(parts.length - kShown))] : [])
   ];
 }

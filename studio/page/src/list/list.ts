@@ -3,6 +3,7 @@
 import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
 import {icon} from '../shell/icons';
+import {nameOf} from '../store';
 import {words} from '../strings';
 import {nextOf, partsOf, type NextKind} from './next_part';
 
@@ -40,7 +41,7 @@ export function listPanel(app: App): Panel {
     facts = factsOf(app);
     order = [...facts.keys()];
     const by = sort.value;
-    if (by === 'name') order.sort((a, b) => app.store.value.buildings[a]!.id.localeCompare(app.store.value.buildings[b]!.id, 'en', {numeric: true}));
+    if (by === 'name') order.sort((a, b) => nameOf(app.store.value, a).localeCompare(nameOf(app.store.value, b), 'en', {numeric: true}));
     else if (by !== 'file') order.sort((a, b) => facts.get(b)![by as keyof Facts] - facts.get(a)![by as keyof Facts] || a - b);
     replace(jumps, ...jumpButtons(app));
     draw();
@@ -94,6 +95,6 @@ function rowElement(app: App, building: number, facts: Facts, top: number, count
   return el('li', {class: `list-row${isChosen ? ' is-chosen' : ''}`, style: {top: `${top}px`}, 'aria-setsize': count, 'aria-posinset': place + 1},
     el('button', {type: 'button', class: 'list-button', 'data-building': building, 'aria-pressed': String(isChosen),
       onclick: () => app.select({building}, true)},
-      el('span', {class: 'list-name'}, entry.id), worst ? el('span', {class: `list-issue is-${worst.severity}`, title: worst.sentence, 'aria-label': worst.sentence}, icon('warning')) : null,
+      el('span', {class: 'list-name'}, nameOf(app.store.value, building)), worst ? el('span', {class: `list-issue is-${worst.severity}`, title: worst.sentence, 'aria-label': worst.sentence}, icon('warning')) : null,
       el('span', {class: 'list-facts small quiet'}, words.shell.features(entry.features), badge('wrong'), badge('changed'), badge('doubtful'), badge('unknown'))));
 }

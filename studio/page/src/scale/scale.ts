@@ -6,6 +6,7 @@ import {authorOf} from '../editor/author';
 import {Divider} from '../scene/divider';
 import {shapeOf} from '../scene/shape';
 import {SourceError, type ScaleAnswer} from '../source';
+import {nameOf} from '../store';
 import {words} from '../strings';
 import {isOriginal, keyOf, questionOf, stopText, stopsOf, tickText, type Stop} from './stops';
 import {Waiting} from './waiting';
@@ -131,7 +132,7 @@ class ScalePanel {
     const {signal} = this.asking = new AbortController();
     const stop = this.stop;
     this.element.setAttribute('aria-busy', 'true');
-    this.waiting.begin(words.scale.drawing(this.app.store.value.buildings[this.building]?.id ?? '', stopText(stop)));
+    this.waiting.begin(words.scale.drawing(nameOf(this.app.store.value, this.building), stopText(stop)));
     try {
       await this.app.need([this.building]);
       if (signal.aborted) return;
@@ -172,7 +173,7 @@ class ScalePanel {
   }
 
   private say(answer: ScaleAnswer | null): void {
-    const name = this.app.store.value.buildings[this.building]?.id ?? '';
+    const name = nameOf(this.app.store.value, this.building);
     replace(this.title, el('strong', {class: 'number'}, isOriginal(this.stop) ? words.scale.original : stopText(this.stop)), el('span', {class: 'quiet'}, name));
     if (!answer) {
       replace(this.facts, el('p', {class: 'quiet'}, words.scale.hint));

@@ -2,7 +2,7 @@
 import {Vector3} from 'three';
 import type {App} from '../app';
 import type {BoxMm, Change, Part, RelationEntry} from '../source';
-import {labelOf, type Selection} from '../store';
+import {labelOf, nameOf, type Selection} from '../store';
 import {words} from '../strings';
 import type {BuildingScene, Hit} from './building_scene';
 import {Overlay, type OverlayLine, type OverlayMark} from './overlay';
@@ -24,23 +24,23 @@ export function bindScene(scene: BuildingScene, app: App): void {
   store.watch(['is_dark'], () => binding.takeColours());
   store.watch(['geometry'], () => binding.takeGeometry());
   store.watch(['buildings'], () => binding.takeBoxes());
-  store.watch(['labels', 'classes', 'filter', 'colours', 'selection', 'found', 'changed', 'shows_changes', 'score', 'doubtful'],
+  store.watch(['labels', 'classes', 'filter', 'colours', 'selection', 'only', 'is_dark', 'found', 'changed', 'shows_changes', 'score', 'doubtful'],
     () => scene.setPaint(binding.paint()));
   store.watch(['hover'], () => binding.takeHover());
   store.watch(['selection', 'geometry'], () => overlay.setOutline(store.value.selection ? scene.outlineOf(store.value.selection) : []));
   store.watch(['shows_hidden_lines'], () => scene.setHiddenLines(store.value.shows_hidden_lines));
   store.watch(['truth', 'shows_truth', 'classes', 'buildings'], () => binding.takeTruth());
-  store.watch(['selection', 'relation', 'shows_relations', 'changed', 'shows_changes', 'is_measuring', 'geometry'], () => void binding.takeLines());
+  store.watch(['selection', 'relation', 'shows_relations', 'changed', 'shows_changes', 'is_measuring', 'geometry', 'buildings', 'only'], () => void binding.takeLines());
   scene.onPick.push((hit, event) => binding.pick(hit, event));
   scene.onHover.push((hit, event) => binding.hover(hit, event));
 }
 
 /** What the paint of a picture is by the store; the second picture of a divider uses it as well. */
 export function paintOf(app: App, looks: Look[]): Paint {
-  const {labels, filter, selection, found, changed, shows_changes, colours, hover} = app.store.value;
+  const {labels, filter, selection, only, found, changed, shows_changes, colours, hover} = app.store.value;
   return {
     labels, looks, unknown: {colour: '#e7e2d8', pattern: colours === 'pattern' ? 5 : 0}, hidden: filter.hidden,
-    heat: colours === 'heat' ? heatOf(app.store.value) : null, selection, hover, found, open: openBuildings(app),
+    heat: colours === 'heat' ? heatOf(app.store.value) : null, selection, only, hover, found, open: openBuildings(app),
     changed: shows_changes ? partsOf(changed) : kNoParts
   };
 }
@@ -98,8 +98,8 @@ class Binding {
   }
 
   takeBoxes(): void {
-    this.scene.setBoxes(this.app.store.value.buildings.map(({at_m: from, size_m: size}, building) =>
-      ({building, from, to: [from[0] + size[0], from[1] + size[1], from[2] + size[2]]})));
+    this.scene.setBoxes(this.app.store.value.buildings.map(({at_m: from, size_m: size, away_m}, building) =>
+      ({building, from, to: [from[0] + size[0], from[1] + size[1], from[2] + size[2]], isFar: away_m !== undefined})));
   }
 
   takeHover(): void {
@@ -121,7 +121,7 @@ class Binding {
   async takeLines(): Promise<void> {
     const {selection, shows_relations, relation, is_measuring} = this.app.store.value;
     if (!is_measuring) this.measure = [];
-    this.overlay.set(this.measureLines(), this.changeMarks());
+    this.overlay.set(this.measureLines(), this.marks());
     if (!selection || selection.feature === undefined || !shows_relations) return;
     const part: Part = [selection.building, selection.feature];
     const entries = await this.relationsOf(part);
@@ -137,7 +137,7 @@ class Binding {
           lines.push({from, to, kind: 'relation', ...(entry.features.length === 1 || relation !== null ? {label: entry.name} : {})});
       }
     }
-    this.overlay.set([...this.measureLines(), ...lines], this.changeMarks());
+    this.overlay.set([...this.measureLines(), ...lines], this.marks());
   }
 
   private async relationsOf([building, feature]: Part): Promise<RelationEntry[]> {
@@ -150,6 +150,15 @@ class Binding {
     } catch {
       return [];  // the explanation itself says why
     }
+  }
+
+  private marks(): OverlayMark[] { return [...this.changeMarks(), ...this.nameMarks()]; }
+
+  /** The names of buildings that stand where they do not belong. */
+  private nameMarks(): OverlayMark[] {
+    const {buildings, only} = this.app.store.value;
+    return buildings.flatMap(({at_m: [x, y, z], size_m: [width, depth, height], is_moved}, building): OverlayMark[] => (is_moved && (only ?? building) === building ?
+      [{at: new Vector3(x + width / 2, y + depth / 2, z + height), text: nameOf(this.app.store.value, building), kind: 'name'}] : []));
   }
 
   private changeMarks(): OverlayMark[] {
@@ -213,8 +222,7 @@ class Binding {
 
   private nameOf({building, feature, polygon}: Selection): string {
     const {classes, buildings} = this.app.store.value;
-    const entry = buildings[building]?.id ?? '';
-    if (feature === undefined) return buildings.length > 1 || polygon === undefined ? entry : words.scene.surface;
+    if (feature === undefined) return buildings.length > 1 || polygon === undefined ? nameOf(this.app.store.value, building) : words.scene.surface;
     const label = classes[labelOf(this.app.store.value, building, feature)]?.name ?? words.scene.unknown;
     const name = this.app.feature(building, feature)?.name ?? '';
     return name.startsWith(label) ? name : name ? `${label} · ${name}` : label;

@@ -5,8 +5,11 @@ import {makeBoxMaterial} from './materials';
 import type {Paint} from './paint';
 import {heatColour, surfaceColours} from './palette';
 
+/** As much of the ground is in what is faded: as in materials.ts. */
+const kFaded = 0.62;
+
 /** A building's box in metres from the origin of the scene. */
-export interface PlacedBox { building: number; from: Vec3; to: Vec3 }
+export interface PlacedBox { building: number; from: Vec3; to: Vec3; isFar: boolean }
 
 const kPlain = new Color(surfaceColours.wall);
 
@@ -16,13 +19,13 @@ export class BuildingBoxes {
   private placed: PlacedBox[] = [];
   private mesh: InstancedMesh | null = null;
   private away: {has(building: number): boolean} = new Set();
-  private heat: Paint['heat'] = null;
-  private painted: InstancedMesh | null = null;
+  private only: number | null = null;
+  private painted: unknown[] = [];
 
   set(boxes: PlacedBox[], away: {has(building: number): boolean}): void {
     this.placed = boxes;
     this.bounds.makeEmpty();
-    for (const box of boxes) this.bounds.expandByPoint(new Vector3(...box.from)).expandByPoint(new Vector3(...box.to));
+    for (const box of boxes) if (!box.isFar) this.bounds.expandByPoint(new Vector3(...box.from)).expandByPoint(new Vector3(...box.to));
     this.mesh?.dispose();
     this.object.clear();
     this.mesh = null;
@@ -35,14 +38,14 @@ export class BuildingBoxes {
     this.leaveOut(away);
   }
 
-  /** The corners of the boxes of these buildings, or of all. */
+  /** The corners of the boxes of these buildings, or of all that are not far away. */
   corners(buildings?: {has(building: number): boolean}): Vector3[] {
-    return this.placed.filter(({building}) => buildings?.has(building) ?? true).flatMap(({from, to}) => [0, 1, 2, 3, 4, 5, 6, 7].map(i =>
+    return this.placed.filter(({building, isFar}) => buildings?.has(building) ?? !isFar).flatMap(({from, to}) => [0, 1, 2, 3, 4, 5, 6, 7].map(i =>
       new Vector3(i & 1 ? to[0] : from[0], i & 2 ? to[1] : from[1], i & 4 ? to[2] : from[2])));
   }
 
-  /** Whether there is a box of a building that is not among these. */
-  hasOthers(buildings: {has(building: number): boolean}): boolean { return this.placed.some(({building}) => !buildings.has(building)); }
+  /** Whether there is a box of a building that is not among these, or far away. */
+  hasOthers(buildings: {has(building: number): boolean}): boolean { return this.placed.some(({building, isFar}) => isFar || !buildings.has(building)); }
 
   /** Those that are drawn as they are leave their boxes. */
   leaveOut(away: {has(building: number): boolean}): void {
@@ -50,23 +53,32 @@ export class BuildingBoxes {
     if (!this.mesh) return;
     const matrix = new Matrix4();
     this.placed.forEach(({building, from, to}, i) => {
-      const size = away.has(building) ? [0, 0, 0] : to.map((x, k) => Math.max(0.1, x - from[k]!));
+      const size = this.isAway(building) ? [0, 0, 0] : to.map((x, k) => Math.max(0.1, x - from[k]!));
       matrix.makeScale(size[0]!, size[1]!, size[2]!);
       matrix.setPosition((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2);
       this.mesh!.setMatrixAt(i, matrix);
     });
     this.mesh.instanceMatrix.needsUpdate = true;
-    this.mesh.visible = this.placed.some(({building}) => !away.has(building));
+    this.mesh.visible = this.placed.some(({building}) => !this.isAway(building));
   }
 
+  private isAway(building: number): boolean { return this.away.has(building) || (this.only !== null && this.only !== building); }
+
   /** False if all are as they were. */
-  paint(paint: Paint): boolean {
-    if (!this.mesh || (paint.heat === this.heat && this.mesh === this.painted)) return false;
-    this.heat = paint.heat;
-    this.painted = this.mesh;
+  paint(paint: Paint, ground: Vector3): boolean {
+    const chosen = paint.found.length === 0 ? paint.selection?.building : undefined;
+    const by = [this.mesh, paint.heat, chosen, paint.only, ground.x];
+    if (!this.mesh || by.every((value, i) => value === this.painted[i])) return false;
+    this.painted = by;
+    if (paint.only !== this.only) {
+      this.only = paint.only;
+      this.leaveOut(this.away);
+    }
+    const around = new Color(ground.x, ground.y, ground.z);
     this.placed.forEach(({building}, i) => {
       const heat = paint.heat?.get(building);
-      this.mesh!.setColorAt(i, heat === undefined ? kPlain : new Color(heatColour(heat)));
+      const colour = heat === undefined ? kPlain.clone() : new Color(heatColour(heat));
+      this.mesh!.setColorAt(i, chosen === undefined || chosen === building ? colour : colour.lerp(around, kFaded));
     });
     this.mesh.instanceColor!.needsUpdate = true;
     return this.mesh.visible;
@@ -76,7 +88,7 @@ export class BuildingBoxes {
     let best: {building: number; distance: number; point: Vector3} | null = null;
     const box = new Box3();
     for (const {building, from, to} of this.placed) {
-      if (this.away.has(building)) continue;
+      if (this.isAway(building)) continue;
       box.min.set(...from);
       box.max.set(...to);
       const point = ray.intersectBox(box, new Vector3());

@@ -12,6 +12,7 @@ import {Cap} from './cap';
 import {buildChunk, bvhOf, leaveOutSmall, placedAt, type Chunk, type PlacedShape} from './chunk';
 import {makeExtraLineMaterial, makeMaterials, makeUniforms} from './materials';
 import {NumberSpace} from './number_space';
+import {mainFacade} from './facade';
 import {isMeant, kNothing, Painter, shownFeature, type Paint} from './paint';
 import {rgb} from './palette';
 import {hasOwner, pointOf, polygonCount, ringsOf, vertexCount} from './shape';
@@ -66,7 +67,7 @@ export class BuildingScene {
     this.camera.freeArea = () => freeAreaOf(host);
     try {
       this.renderer = new WebGLRenderer({antialias: true, stencil: true});
-    } catch { /* said by the shell */ }
+    } catch { /* said by the workbench */ }
     this.isDrawing = this.renderer !== null;
     if (!this.renderer) return;
     this.renderer.debug.checkShaderErrors = false;  // asking for them waits for the compiler
@@ -142,7 +143,7 @@ export class BuildingScene {
     this.paint = paint;
     if (hasNewLooks) this.painter.setLooks(paint);
     const areOther = this.painter.paint(paint, buildings);
-    const areBoxesOther = this.boxes.paint(paint);
+    const areBoxesOther = this.boxes.paint(paint, this.uniforms.ground.value);
     if (hasNewLooks || areOther || areBoxesOther) this.requestRender();
   }
 
@@ -196,17 +197,23 @@ export class BuildingScene {
   // ---- where it looks ----
 
   get bounds(): Box3 {
-    const all = this.box.clone();
-    return all.union(this.boxes.bounds);
+    return this.boxes.bounds.isEmpty() ? this.box : this.boxes.bounds;
   }
 
-  /** The corners of all that is drawn; of very many buildings those of their boxes. */
+  /** The corners of all that is drawn but far away; of many buildings those of their boxes. */
   corners(): Vector3[] {
     const kMost = 20000;
+    if (this.paint.only !== null) return this.boxes.corners(new Set([this.paint.only]));
     const shapes = [...this.buildings.values()];
     const vertices = shapes.reduce((sum, shape) => sum + vertexCount(shape), 0);
     if (vertices === 0 || vertices > kMost || this.boxes.hasOthers(this.buildings)) return this.boxes.corners();
     return shapes.flatMap(shape => Array.from({length: vertexCount(shape)}, (_, v) => new Vector3(...pointOf(shape, v))));
+  }
+
+  /** Everything comes into the picture, without a flight. */
+  frame(): void {
+    this.settle();
+    this.camera.frame(this.corners());
   }
 
   /** To a selection, from outside and a little above; to everything if there is none. */
@@ -216,8 +223,11 @@ export class BuildingScene {
     const {building, feature, polygon} = selection;
     const shape = this.buildings.get(building);
     if (!shape) return this.camera.flyTo(this.boxes.corners(new Set([building])), null);
-    const isWhole = feature === undefined && polygon === undefined;
-    this.flyToPolygons(polygonsOf(shape, i => isWhole || isMeant(shape, i, selection)), isWhole);
+    if (feature === undefined && polygon === undefined) {
+      const facade = this.boxes.hasOthers(new Set([building])) ? mainFacade(shape, this.paint.labels.get(building)) : null;
+      return this.camera.flyTo(Array.from({length: vertexCount(shape)}, (_, v) => new Vector3(...pointOf(shape, v))), facade, 1);
+    }
+    this.flyToPolygons(polygonsOf(shape, i => isMeant(shape, i, selection)), false);
   }
 
   /** Of parts whose buildings have not come, to the boxes of these. */
@@ -360,6 +370,7 @@ export class BuildingScene {
 
   private isAway({shape, begin}: PlacedShape, number: number, point: Vector3): boolean {
     const cut = this.uniforms.cut.value;
+    if (this.paint.only !== null && this.paint.only !== shape.number) return true;
     if (this.isCut && cut.x * point.x + cut.y * point.y + cut.z * point.z > cut.w) return true;
     const labels = this.paint.labels.get(shape.number);
     const feature = shownFeature(shape, number - begin, labels);
@@ -473,7 +484,7 @@ function polygonsOf(shape: Shape, isWanted: (polygon: number) => boolean): [Shap
 /** The larger of what is beside the legend and what is over it, below the tools. */
 function freeAreaOf(host: HTMLElement): FreeArea {
   const all = host.getBoundingClientRect();
-  const bar = host.querySelector('.tool-bar')?.getBoundingClientRect();
+  const bar = [...host.querySelectorAll('.tool-bar, .scene-note:not(:empty)')].at(-1)?.getBoundingClientRect();
   const card = host.querySelector('.legend-card')?.getBoundingClientRect();
   if (all.width === 0 || all.height === 0) return {left: 0, top: 0, width: 1, height: 1};
   const top = bar ? bar.bottom - all.top : 0;
@@ -487,6 +498,6 @@ function freeAreaOf(host: HTMLElement): FreeArea {
 
 /** Labels of buildings that have not changed are the same lists: after a key in the pack only a few are painted anew. */
 function onlyLabelsDiffer(p: Paint, q: Paint): boolean {
-  const same = ['looks', 'hidden', 'heat', 'selection', 'hover', 'found', 'changed', 'open'] as const;
+  const same = ['looks', 'hidden', 'heat', 'selection', 'only', 'hover', 'found', 'changed', 'open'] as const;
   return p.unknown.pattern === q.unknown.pattern && same.every(name => p[name] === q[name]);
 }

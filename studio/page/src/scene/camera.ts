@@ -18,8 +18,8 @@ export class Camera {
   private readonly controls: OrbitControls;
   private readonly tied: Camera[] = [];
   private flight = 0;
-  /** The reader has turned, moved or zoomed it. */
-  isMoved = false;
+  /** Where it was put last. */
+  private put: {target: Vector3; distance: number} | null = null;
   /** Where nothing lies over the picture, as shares of its width and height: what is looked at comes into the middle of that. */
   freeArea: () => FreeArea = () => ({left: 0, top: 0, width: 1, height: 1});
   /** From the middle of the picture to the middle of the view, as shares of its size. */
@@ -33,11 +33,16 @@ export class Camera {
     this.controls.minDistance = 0.3;
     this.controls.mouseButtons = {LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN};
     this.controls.addEventListener('change', () => this.moved());
-    this.controls.addEventListener('start', () => { this.flight = 0; this.isMoved = true; });
+    this.controls.addEventListener('start', () => { this.flight = 0; });
     element.addEventListener('keydown', event => this.onKey(event));
   }
 
   get distance(): number { return this.three.position.distanceTo(this.controls.target); }
+  /** The reader has moved or zoomed it since it was put where it is; who has turned it still looks at the same. */
+  get isMoved(): boolean {
+    const {put, distance} = this;
+    return put !== null && Math.max(put.target.distanceTo(this.target), Math.abs(put.distance - distance)) > 1e-3 * distance;
+  }
   get target(): Vector3 { return this.controls.target; }
   /** From the camera into the picture. */
   get direction(): Vector3 { return this.controls.target.clone().sub(this.three.position).normalize(); }
@@ -63,13 +68,16 @@ export class Camera {
   }
 
   /** Looks at points so that they fill the picture, from `outside` and a little above, or as it first looks. */
-  flyTo(points: Vector3[], outside: Vector3 | null): void {
-    const direction = outside ? outside.clone().add(new Vector3(0.25, -0.25, 0.4)).normalize() : kFirstDirection;
-    this.look(points, direction, outside ? kContext : 1);
+  flyTo(points: Vector3[], outside: Vector3 | null, around = outside ? kContext : 1): void {
+    const direction = outside ? outside.clone().add(new Vector3(-0.35 * outside.y, 0.35 * outside.x, 0.4)).normalize() : kFirstDirection;
+    this.look(points, direction, around);
   }
 
+  /** Puts points into the picture at once, seen from the side from which it looks by now. */
+  frame(points: Vector3[]): void { this.look(points, this.put ? this.direction.negate() : kFirstDirection, 1, true); }
+
   /** The picture is first centred on the box of the points, then twice on what is seen of them. */
-  look(points: Vector3[], direction: Vector3, around = 1): void {
+  look(points: Vector3[], direction: Vector3, around = 1, isAtOnce = false): void {
     if (points.length === 0) return;
     const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
     const free = this.freeArea();
@@ -94,7 +102,7 @@ export class Camera {
       if (round < 2) centre.addScaledVector(right, middle.x).addScaledVector(up, middle.y);
     }
     this.goTo(centre.clone().addScaledVector(direction, distance), centre,
-      new Vector2(free.left + free.width / 2 - 0.5, free.top + free.height / 2 - 0.5));
+      new Vector2(free.left + free.width / 2 - 0.5, free.top + free.height / 2 - 0.5), isAtOnce);
   }
 
   /** From the front, the side, above: the numbers 1, 2, 3. */
@@ -103,10 +111,11 @@ export class Camera {
     this.look(points, direction.normalize());
   }
 
-  private goTo(position: Vector3, target: Vector3, shift: Vector2): void {
+  private goTo(position: Vector3, target: Vector3, shift: Vector2, isAtOnce: boolean): void {
     const number = ++this.flight;
+    this.put = {target, distance: position.distanceTo(target)};
     const from = {position: this.three.position.clone(), target: this.controls.target.clone(), shift: this.viewShift.clone()};
-    const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    const isStill = isAtOnce || matchMedia('(prefers-reduced-motion: reduce)').matches;
     const begin = performance.now();
     const step = () => {
       if (number !== this.flight) return;

@@ -24,7 +24,7 @@ export class Divider {
       el('span', {class: 'divider-after', 'aria-hidden': 'true'}, after));
     app.scene.host.append(this.line);
     this.listen();
-    app.store.watch(['labels', 'classes', 'filter', 'colours', 'selection', 'found', 'hover', 'is_dark'], () => this.paint());
+    app.store.watch(['labels', 'classes', 'filter', 'colours', 'selection', 'only', 'found', 'hover', 'is_dark'], () => this.paint());
     app.store.watch(['shows_hidden_lines'], () => this.second?.setHiddenLines(app.store.value.shows_hidden_lines));
   }
 

@@ -7,8 +7,8 @@ import {
 import type {Materials} from './chunk';
 
 export const kStateWidth = 2048;
-/** `open`: its building is no closed body. */
-export const kFlag = {hidden: 1, selected: 2, hover: 4, changed: 8, found: 16, faint: 32, open: 64};
+/** `open`: its building is no closed body; `through`: what lies behind shines through. */
+export const kFlag = {hidden: 1, selected: 2, hover: 4, changed: 8, found: 16, faint: 32, open: 64, through: 128};
 
 export interface Uniforms {
   [name: string]: {value: unknown};
@@ -98,6 +98,7 @@ const kFaceFragment = `
 
   void main() {
     if (dot(cut.xyz, vWorld) > cut.w && dot(cut.xyz, cut.xyz) > .5) discard;
+    if ((vEntry.g & ${kFlag.through}) != 0 && (int(gl_FragCoord.x) + int(gl_FragCoord.y)) % 2 == 0) discard;
     vec3 n = normalize(vNormal);
     if (!gl_FrontFacing) n = -n;
     vec4 entry = texelFetch(palette, ivec2(vEntry.r, 0), 0);

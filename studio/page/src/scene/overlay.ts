@@ -5,7 +5,7 @@ import {el, svg} from '../dom';
 import type {BuildingScene} from './building_scene';
 
 export interface OverlayLine { from: Vector3; to: Vector3; kind: 'relation' | 'measure'; label?: string }
-export interface OverlayMark { at: Vector3; text: string; kind: 'change' | 'point' }
+export interface OverlayMark { at: Vector3; text: string; kind: 'change' | 'name' }
 
 const kMostEdges = 500;
 
@@ -46,6 +46,7 @@ export class Overlay {
 
   private draw(): void {
     const shapes: Element[] = [];
+    const names: {x: number; y: number; text: string}[] = [];
     const path = this.outline.map(([from, to]) => {
       const a = this.scene.project(from), b = this.scene.project(to);
       return a && b ? `M${a.x.toFixed(1)} ${a.y.toFixed(1)}L${b.x.toFixed(1)} ${b.y.toFixed(1)}` : '';
@@ -61,11 +62,20 @@ export class Overlay {
     for (const mark of this.marks) {
       const p = this.scene.project(mark.at);
       if (!p) continue;
-      shapes.push(svg('circle', {class: `mark-${mark.kind}`, cx: p.x, cy: p.y, r: 4}));
-      if (mark.text) shapes.push(...textAt(p.x, p.y - 14, mark.text, `label-${mark.kind}`));
+      if (mark.kind === 'change') shapes.push(svg('circle', {class: 'mark-change', cx: p.x, cy: p.y, r: 4}));
+      else if (!hasRoom(p.x, p.y, mark.text, names)) continue;
+      shapes.push(...textAt(p.x, p.y - 14, mark.text, `label-${mark.kind}`));
     }
     this.root.replaceChildren(...shapes);
   }
+}
+
+/** False if the name would lie upon one that is written already; else it is noted. */
+function hasRoom(x: number, y: number, text: string, names: {x: number; y: number; text: string}[]): boolean {
+  const kLetter_px = 6.5, kLine_px = 16;
+  if (names.some(other => Math.abs(other.y - y) < kLine_px && Math.abs(other.x - x) < kLetter_px * (other.text.length + text.length + 2) / 2)) return false;
+  names.push({x, y, text});
+  return true;
 }
 
 /** A text with a halo, in the middle of a point. */

@@ -16,6 +16,8 @@ export interface Paint {
   /** A share from 0 to 1 of each building; null draws labels. */
   heat: ReadonlyMap<number, number> | null;
   selection: Selection | null;
+  /** The building that alone is drawn; null: all are. */
+  only: number | null;
   hover: Selection | null;
   found: Part[];
   changed: Part[];
@@ -24,7 +26,7 @@ export interface Paint {
 }
 
 export const kNothing: Paint = {
-  labels: new Map(), looks: [], unknown: {colour: '#e7e2d8', pattern: 0}, hidden: new Set(), heat: null, selection: null, hover: null,
+  labels: new Map(), looks: [], unknown: {colour: '#e7e2d8', pattern: 0}, hidden: new Set(), heat: null, selection: null, only: null, hover: null,
   found: [], changed: [], open: new Set()
 };
 
@@ -111,7 +113,9 @@ function paintBuilding(paint: Paint, {shape, begin, isRoof}: PlacedShape, found:
   const foundHere = found.get(shape.number), changedHere = changed.get(shape.number);
   const chosen = paint.selection?.building === shape.number ? paint.selection : null;
   const hovered = paint.hover?.building === shape.number ? paint.hover : null;
-  const common = paint.open.has(shape.number) ? kFlag.open : 0;
+  const isFaded = paint.selection !== null && !chosen && found.size === 0;
+  const isAway = paint.only !== null && paint.only !== shape.number;
+  const common = (paint.open.has(shape.number) ? kFlag.open : 0) | (isFaded ? kFlag.faint | kFlag.through : 0) | (isAway ? kFlag.hidden : 0);
   for (let polygon = 0; polygon < isRoof.length; ++polygon) {
     const feature = shownFeature(shape, polygon, labels);
     const label = feature < 0 ? -2 : labels?.[feature] ?? -1;

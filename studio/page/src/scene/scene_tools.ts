@@ -3,10 +3,17 @@ import type {App} from '../app';
 import {el, replace} from '../dom';
 import {icon} from '../shell/icons';
 import {nextOf} from '../list/next_part';
-import type {ColourMode, Values} from '../store';
+import {nameOf, type ColourMode, type Values} from '../store';
 import {words} from '../strings';
 import type {BuildingScene} from './building_scene';
 import {Cut, cutPanel} from './cut';
+
+/** The chosen building alone, or all again. */
+export function showOnly(app: App): void {
+  const {only, selection} = app.store.value;
+  app.store.set({only: only === null ? selection?.building ?? null : null});
+  queueMicrotask(() => app.scene.fly(only === null && selection ? {building: selection.building} : null));
+}
 
 type Switch = 'shows_hidden_lines' | 'is_measuring' | 'shows_relations' | 'shows_changes' | 'shows_truth';
 
@@ -35,11 +42,19 @@ export function sceneTools(app: App, scene: BuildingScene): HTMLElement {
   const fit = () => scene.fly(store.value.selection);
   const truth = switchOf('shows_truth', 'truth', words.scene.truth, 'T');
   store.watch(['has_truth'], () => { truth.hidden = !store.value.has_truth; });
+  const onlyButton = tool('eye', words.scene.only, 'O', () => showOnly(app), 'only');
+  store.watch(['only', 'selection', 'buildings'], () => {
+    const {only, selection, buildings} = store.value;
+    onlyButton.hidden = buildings.length < 2;
+    onlyButton.disabled = !selection && only === null;
+    onlyButton.setAttribute('aria-pressed', String(only !== null));
+  });
   const cutButton = opener(cutBox, tool('section', words.scene.section, 'X', () => {}));
   const bar = el('div', {class: 'tool-bar', role: 'toolbar', 'aria-label': words.scene.tools},
     tool('fit', words.scene.fit, 'F', fit),
     opener(colourBox, tool('palette', words.scene.colours, '', () => {})),
     cutButton,
+    onlyButton,
     switchOf('shows_hidden_lines', 'hidden', words.scene.hiddenLines, 'H'),
     switchOf('is_measuring', 'measure', words.scene.measure, 'M'),
     switchOf('shows_relations', 'relations', words.scene.relations, 'R'),
@@ -54,7 +69,7 @@ export function sceneTools(app: App, scene: BuildingScene): HTMLElement {
   scene.element.setAttribute('aria-label', words.scene.name);
   const keys = new Map<string, () => void>([
     ['f', fit], ['h', () => toggle('shows_hidden_lines')], ['m', () => toggle('is_measuring')], ['r', () => toggle('shows_relations')],
-    ['t', () => toggle('shows_truth')], ['x', () => cutButton.click()],
+    ['t', () => toggle('shows_truth')], ['x', () => cutButton.click()], ['o', () => onlyButton.click()],
     ['1', () => scene.camera.lookAlong('front', scene.corners())], ['2', () => scene.camera.lookAlong('side', scene.corners())],
     ['3', () => scene.camera.lookAlong('above', scene.corners())],
     ['n', () => nextOf(app, 'unknown', 1)], ['N', () => nextOf(app, 'unknown', -1)], ['d', () => nextOf(app, 'doubtful', 1)],
@@ -67,7 +82,23 @@ export function sceneTools(app: App, scene: BuildingScene): HTMLElement {
     if (target.isContentEditable || ['INPUT', 'TEXTAREA', 'SELECT'].includes(target.tagName) || target.closest('dialog')) return;
     keys.get(event.key)?.();
   });
-  return el('div', {class: 'scene-tools'}, bar, cutBox, colourBox, hint);
+  return el('div', {class: 'scene-tools'}, bar, placeNote(app), cutBox, colourBox, hint);
+}
+
+/** Says which buildings are not where they really are, and which are too far away to be in the picture. */
+function placeNote(app: App): HTMLElement {
+  const kMostNamed = 3;
+  const note = el('p', {class: 'scene-note', role: 'status'});
+  app.store.watch(['buildings', 'issues'], () => {
+    const {buildings, issues} = app.store.value;
+    const far = buildings.flatMap(({away_m}, building) => (away_m === undefined ? [] : [building]));
+    const links = far.slice(0, kMostNamed).flatMap(building => [' ', el('button', {type: 'button', class: 'link', onclick: () => app.select({building}, true)},
+      words.scene.awayBy(nameOf(app.store.value, building), buildings[building]!.away_m!))]);
+    const faults = issues.filter(({severity}) => severity === 'error');
+    replace(note, faults[0] ? el('span', {class: 'grave'}, words.scene.unread(faults.length, `${faults[0].file ?? ''}: ${faults[0].sentence}`)) : null, buildings.some(({is_moved}) => is_moved) ? el('span', {}, words.scene.moved) : null,
+      far.length > 0 ? el('span', {}, words.scene.away(far.length), ...links) : null);
+  });
+  return note;
 }
 
 function colourPanel(app: App): HTMLElement {

@@ -4,6 +4,7 @@ import type {App} from '../app';
 import {el} from '../dom';
 import {icon} from '../shell/icons';
 import type {Part} from '../source';
+import {nameOf} from '../store';
 import {words} from '../strings';
 import {matchesOf, plain} from './names';
 
@@ -69,7 +70,7 @@ function findBuilding(app: App, text: string): number {
   const meant = plain(text);
   if (!meant || classes.some(({name}) => plain(name) === meant)) return -1;
   for (const matches of matchesOf(text)) {
-    const found = buildings.findIndex(({id}) => matches(id, true));
+    const found = buildings.findIndex(({id}, i) => matches(id, true) || matches(nameOf(app.store.value, i), true));
     if (found >= 0) return found;
   }
   return -1;

@@ -8,7 +8,7 @@ import {Dock} from './dock';
 import {dragger} from './dragger';
 import {helpButton} from './help';
 import {icon} from './icons';
-import {statusLine} from './status';
+import {loadBar, statusLine} from './status';
 import {switchTheme} from './theme';
 
 const kPhone = matchMedia('(max-width: 759px)');
@@ -29,7 +29,7 @@ export class Shell {
   constructor(root: HTMLElement, store: Store, title: string) {
     this.left = new Dock('left', words.shell.left, () => {});
     this.right = new Dock('right', words.shell.right, wasInFront => this.onRightTab(wasInFront));
-    this.sceneHost = el('div', {class: 'scene', id: 'scene'}, this.legendHost);
+    this.sceneHost = el('div', {class: 'scene', id: 'scene'}, this.legendHost, loadBar(store));
     this.bar = el('header', {class: 'bar'},
       el('h1', {class: 'brand'}, title),
       el('span', {class: 'pack-name', id: 'pack-name'}),

@@ -3,10 +3,22 @@ import {el, replace} from '../dom';
 import type {Store} from '../store';
 import {words} from '../strings';
 
+/** How many of the buildings are there, while some are missing. */
+export function loadBar(store: Store): HTMLElement {
+  const bar = el('progress', {class: 'load-bar', 'aria-label': words.shell.loadBar});
+  store.watch(['loading'], () => {
+    const {done, all} = store.value.loading;
+    bar.hidden = done >= all;
+    bar.max = Math.max(1, all);
+    bar.value = done;
+  });
+  return bar;
+}
+
 export function statusLine(store: Store): HTMLElement {
   const element = el('p', {class: 'status', role: 'status', 'aria-live': 'polite'});
-  store.watch(['message', 'is_message_grave', 'loading', 'is_good', 'unknown', 'counts', 'score', 'ms'], () => {
-    const {message, is_message_grave, loading, is_good, unknown, counts, score, ms} = store.value;
+  store.watch(['message', 'is_message_grave', 'loading', 'is_good', 'labels', 'unknown', 'counts', 'score', 'ms'], () => {
+    const {message, is_message_grave, loading, is_good, labels, unknown, counts, score, ms} = store.value;
     const labelled = counts.reduce((sum, entry) => sum + entry.count, 0);
     const facts = [
       loading.done < loading.all ? words.shell.loading(loading.done, loading.all) : '',
@@ -17,7 +29,7 @@ export function statusLine(store: Store): HTMLElement {
     ].filter(Boolean);
     replace(element,
       message ? el('span', {class: is_message_grave ? 'grave' : ''}, message) :
-      !is_good ? el('span', {class: 'grave'}, words.shell.keep) : null,
+      !is_good ? el('span', {class: 'grave'}, labels.size > 0 ? words.shell.keep : words.shell.noneGood) : null,
       ...facts.map(fact => el('span', {class: 'fact'}, fact)));
   });
   return element;

@@ -20,6 +20,20 @@ async function outlivesCrash({page, studio, check}) {
   check(true, 'and the page says so');
 }
 
+/** Without WebGL the page says so, and has its lists. */
+async function worksWithoutPicture({context, studio, check, picture}) {
+  const page = await context.newPage();
+  await page.addInitScript(() => {
+    const {getContext} = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function(kind, ...rest) { return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...rest); };
+  });
+  await page.goto(studio.address);
+  await page.waitForSelector('html[data-ready]');
+  check(/draws no 3D/.test(await page.textContent('.no-picture')), 'without WebGL the page says so');
+  check(await page.isVisible('.list-button'), 'and shows the list of buildings');
+  await page.close();
+}
+
 export async function run({page, context, studio, check, picture}) {
   const answer = await page.goto(studio.address);
   check(answer.status() === 200, 'the address that is printed leads to the page');
@@ -48,5 +62,6 @@ export async function run({page, context, studio, check, picture}) {
   check(said[1] === 'failed', 'another site cannot ask');
   check(/refused: method=POST path=\/api\/state status=403/.test(studio.log), 'what it sent is refused and a line of the log');
   check(/refused: method=OPTIONS path=\/api\/state status=403/.test(studio.log), 'its browser was not allowed to ask');
+  await worksWithoutPicture({context, studio, check, picture});
   await outlivesCrash({page, studio, check});
 }

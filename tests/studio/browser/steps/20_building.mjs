@@ -1,11 +1,40 @@
 export const title = 'a building is looked at, filtered, searched and explained';
 export const studio = {files: ['house.stripped.city.json', 'house.truth.json'], arguments: ['--truth', 'house.truth.json']};
-export const context = {viewport: {width: 1280, height: 720}, reducedMotion: 'reduce'};
+export const context = {viewport: {width: 1440, height: 720}, reducedMotion: 'reduce'};
 
 const kCanvas = '#scene canvas';
 
 export async function ready(page) {
   await page.waitForFunction(() => document.documentElement.dataset.ready === 'yes' && Number(document.querySelector('#scene').dataset.drawCalls) > 0);
+}
+
+/** How many corners of the buildings lie out of the picture. */
+export const cropped = page => page.evaluate(() => {
+  const {scene} = window.oriel;
+  return scene.corners().filter(corner => {
+    const at = scene.project(corner);
+    return !at || at.x < 0 || at.y < 0 || at.x > scene.element.clientWidth || at.y > scene.element.clientHeight;
+  }).length;
+});
+
+/** Opens the page with geometry that comes late: outlines are framed at once, and stay so when the picture is touched meanwhile. */
+export async function framesWhileLoading({page, studio, check, picture}, width) {
+  await page.route('**/api/geometry', async route => { await new Promise(resolve => setTimeout(resolve, 500)); await route.continue(); }, {times: 1});
+  await page.goto(studio.address, {waitUntil: 'commit'});
+  await page.waitForFunction(() => window.oriel?.scene.corners().length > 0 && Number(document.querySelector('#scene').dataset.drawCalls) > 0);
+  check(await page.evaluate(() => window.oriel.store.value.geometry.size) === 0 && await cropped(page) === 0, `outlines are framed before the parts come, at ${width} pixels`);
+  await picture(`loading_${width}`);
+  const {x, y, width: wide, height} = await page.locator('.picture').boundingBox();
+  await page.mouse.move(x + wide / 2, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + wide / 2 + 90, y + height / 2 - 20, {steps: 3});
+  await page.mouse.up();
+  await page.evaluate(() => window.oriel.select(null));
+  await ready(page);
+  await page.waitForFunction(() => window.oriel.store.value.geometry.size > 0);
+  check(await cropped(page) === 0, 'and a picture that is turned while it loads shows all of it');
+  check(await page.evaluate(() => document.querySelector('.load-bar').hidden), 'the bar of what is loaded is gone when all is there');
+  await picture(`loaded_${width}`);
 }
 
 /** Two frames: what was asked for is drawn. */
@@ -204,8 +233,8 @@ async function lists({page, check}) {
 }
 
 export async function run(step) {
-  await step.page.goto(step.studio.address);
-  await ready(step.page);
+  await framesWhileLoading(step, 1440);
+  await step.page.evaluate(() => window.oriel.scene.fly(null));
   await filters(step);
   await finds(step);
   await explains(step);

@@ -1,4 +1,4 @@
-import {ready} from './20_building.mjs';
+import {framesWhileLoading} from './20_building.mjs';
 
 export const title = 'on a phone the building has most of the screen';
 export const context = {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, reducedMotion: 'reduce', deviceScaleFactor: 2};
@@ -8,9 +8,10 @@ const shareOf = page => page.evaluate(() => {
   return width * height / (innerWidth * innerHeight);
 });
 
-export async function run({page, studio, check, picture}) {
-  await page.goto(studio.address);
-  await ready(page);
+export async function run(step) {
+  const {page, check, picture} = step;
+  await framesWhileLoading(step, 390);
+  await page.evaluate(() => window.oriel.scene.fly(null));
   const whole = await shareOf(page);
   check(whole > 0.8, `at first ${Math.round(100 * whole)} % of it`);
   const {x, y, width, height} = await page.locator('#scene canvas').boundingBox();
