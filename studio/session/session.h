@@ -25,8 +25,8 @@ struct SessionOptions {
   std::vector<std::pair<std::string, std::string_view>> samples;
   std::string samples_folder = "oriel-samples";
   /// What is read after so many corners of polygons is passed over: what is kept of each takes
-  /// some 400 bytes.
-  std::size_t most_corners = 20'000'000;
+  /// some 250 bytes, without labels.
+  std::size_t most_corners = 12'000'000;
   /// How buildings become features and labels; `corrections` is left aside, and `corrections` below
   /// holds.
   LabelOptions label;
