@@ -20,33 +20,33 @@ constexpr double kLeastGap_m = 4;
 /// Rows are so much longer than they are many: a picture is wider than it is high.
 constexpr double kWide = 2.5;
 
-using Cell = std::array<long long, 3>;
-using Numbers = std::vector<std::size_t>;
+using MapCell = std::array<long long, 3>;
+using StandeeNumbers = std::vector<std::size_t>;
 
 Vec3 middle_of(const Box& box) { return 0.5 * (box.min + box.max); }
 
-Cell cell_of(const Box& box) {
+MapCell cell_of(const Box& box) {
   const Vec3 at = middle_of(box);
   const auto along = [](double x) { return std::llround(std::floor(x / kCell_m)); };
   return {along(at.x), along(at.y), along(at.z)};
 }
 
 /// The cells around that with the most buildings, as far as one touches the next.
-std::set<Cell> main_cells(std::span<const Standee> all) {
-  std::map<Cell, std::size_t> counts;
+std::set<MapCell> main_cells(std::span<const Standee> all) {
+  std::map<MapCell, std::size_t> counts;
   for (const Standee& one : all)
     if (!one.box_m.is_empty()) ++counts[cell_of(one.box_m)];
   if (counts.empty()) return {};
   const auto most =
       std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; });
-  const Cell fullest = most->first;
-  std::set<Cell> near{fullest};
-  std::vector<Cell> ends{fullest};
+  const MapCell fullest = most->first;
+  std::set<MapCell> near{fullest};
+  std::vector<MapCell> ends{fullest};
   while (!ends.empty()) {
-    const Cell from = ends.back();
+    const MapCell from = ends.back();
     ends.pop_back();
     for (int i = 0; i < 27; ++i) {
-      const Cell next{from[0] + i % 3 - 1, from[1] + i / 3 % 3 - 1, from[2] + i / 9 - 1};
+      const MapCell next{from[0] + i % 3 - 1, from[1] + i / 3 % 3 - 1, from[2] + i / 9 - 1};
       if (counts.contains(next) && near.insert(next).second) ends.push_back(next);
     }
   }
@@ -68,7 +68,7 @@ struct Lying {
   std::vector<bool> in_file, across;
 };
 
-Lying lying(std::span<const Standee> all, Numbers near) {
+Lying lying(std::span<const Standee> all, StandeeNumbers near) {
   Lying found{std::vector<bool>(all.size()), std::vector<bool>(all.size())};
   std::ranges::sort(near, {}, [&](std::size_t i) { return std::pair(all[i].box_m.min.x, i); });
   for (std::size_t p = 0; p < near.size(); ++p)
@@ -84,14 +84,14 @@ Lying lying(std::span<const Standee> all, Numbers near) {
 
 /// What keeps together, in the order of the files: a file, or a building of one whose buildings lie
 /// upon each other. Only those that have to move.
-std::vector<Numbers> moving_units(std::span<const Standee> all, const Numbers& near) {
+std::vector<StandeeNumbers> moving_units(std::span<const Standee> all, const StandeeNumbers& near) {
   const Lying found = lying(all, near);
-  std::vector<Numbers> units, files;
+  std::vector<StandeeNumbers> units, files;
   for (const std::size_t i : near) {
     if (files.empty() || all[files.back().front()].file != all[i].file) files.emplace_back();
     files.back().push_back(i);
   }
-  for (const Numbers& file : files) {
+  for (const StandeeNumbers& file : files) {
     const auto lies_in = [&](std::size_t i) { return bool(found.in_file[i]); };
     const auto lies_across = [&](std::size_t i) { return bool(found.across[i]); };
     if (2 * static_cast<std::size_t>(std::ranges::count_if(file, lies_in)) > file.size()) {
@@ -104,7 +104,7 @@ std::vector<Numbers> moving_units(std::span<const Standee> all, const Numbers& n
   return units;
 }
 
-Box box_of(std::span<const Standee> all, const Numbers& unit) {
+Box box_of(std::span<const Standee> all, const StandeeNumbers& unit) {
   Box box;
   for (const std::size_t i : unit) box.grow(all[i].box_m);
   return box;
@@ -120,13 +120,13 @@ Box box_of(const Building& building) {
 
 std::vector<Standing> standings(std::span<const Standee> all) {
   std::vector<Standing> made(all.size());
-  const std::set<Cell> cells = main_cells(all);
-  Numbers near, far;
+  const std::set<MapCell> cells = main_cells(all);
+  StandeeNumbers near, far;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (!all[i].box_m.is_empty()) (cells.contains(cell_of(all[i].box_m)) ? near : far).push_back(i);
   if (near.empty()) return made;
-  const std::vector<Numbers> units = moving_units(all, near);
-  for (const Numbers& unit : units)
+  const std::vector<StandeeNumbers> units = moving_units(all, near);
+  for (const StandeeNumbers& unit : units)
     for (const std::size_t i : unit) made[i].is_moved = true;
 
   Box whole, rest, frames;
@@ -142,7 +142,7 @@ std::vector<Standing> standings(std::span<const Standee> all) {
   // Rows from the back to the front, each from the left to the right.
   std::vector<Box> boxes;
   double area_m2 = 0, widest_m = 0, tallest_m = 0;
-  for (const Numbers& unit : units) {
+  for (const StandeeNumbers& unit : units) {
     const Box& box = boxes.emplace_back(box_of(all, unit));
     const Vec3 size = box.max - box.min;
     widest_m = std::max({widest_m, size.x, size.y});
@@ -173,12 +173,12 @@ std::vector<Standing> standings(std::span<const Standee> all) {
   // other.
   double out_of_sight_m = std::max(end_m, whole.max.x - whole.min.x) + 4 * kCell_m;
   for (const std::size_t i : far) {
-    const Cell cell = cell_of(all[i].box_m);
+    const MapCell cell = cell_of(all[i].box_m);
     const auto at = [&](std::size_t axis) { return static_cast<double>(cell[axis]) * kCell_m; };
     made[i].origin_m = Vec3{at(0), at(1), at(2)} - Vec3{out_of_sight_m, 0, 0};
     made[i].away_m = length(middle_of(all[i].box_m) - middle_of(whole));
   }
-  for (const Numbers& unit : moving_units(all, far)) {
+  for (const StandeeNumbers& unit : moving_units(all, far)) {
     const Box box = box_of(all, unit);
     for (const std::size_t i : unit)
       made[i].origin_m = box.min - Vec3{out_of_sight_m + 2 * kCell_m, 0, 0};

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "model/building.h"
-#include "model/vec3.h"
 
 #include <span>
 #include <string>
