@@ -5,10 +5,13 @@
 
 namespace oriel::detail {
 
+/// "libcairo.so.2".
+extern const char* const kCairoName;
+
 namespace {
 
 std::optional<CairoLibrary> open_cairo() {
-  void* library = ::dlopen(ORIEL_CAIRO_NAME, RTLD_NOW | RTLD_LOCAL);
+  void* library = ::dlopen(kCairoName, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return std::nullopt;
   CairoLibrary cairo;
 #define ORIEL_CAIRO_LOOK_UP(name)                                               \

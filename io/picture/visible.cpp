@@ -72,6 +72,49 @@ bool boxes_meet(const PictureFace& p, const PictureFace& q) {
   return p.left < q.right && q.left < p.right && p.top < q.bottom && q.top < p.bottom;
 }
 
+/// Faces by the squares of the picture that their boxes meet.
+class FaceGrid {
+ public:
+  explicit FaceGrid(std::span<const PictureFace> faces) : squares_(kSide * kSide) {
+    for (const PictureFace& face : faces) {
+      right_ = std::max(right_, face.right);
+      bottom_ = std::max(bottom_, face.bottom);
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for_each_square(faces[i], [&](std::size_t square) { squares_[square].push_back(i); });
+  }
+
+  /// Those that share a square with a face, ascending.
+  [[nodiscard]] std::vector<std::size_t> near(const PictureFace& face) const {
+    std::vector<std::size_t> found;
+    for_each_square(face, [&](std::size_t square) {
+      found.insert(found.end(), squares_[square].begin(), squares_[square].end());
+    });
+    std::ranges::sort(found);
+    const auto rest = std::ranges::unique(found);
+    found.erase(rest.begin(), rest.end());
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t kSide = 128;
+
+  static std::size_t step(double value, double most) {
+    const double share = std::clamp(value / std::max(most, 1.0), 0.0, 1.0);
+    return std::min(kSide - 1, static_cast<std::size_t>(share * kSide));
+  }
+
+  template <class Visit>
+  void for_each_square(const PictureFace& face, Visit visit) const {
+    for (std::size_t y = step(face.top, bottom_); y <= step(face.bottom, bottom_); ++y)
+      for (std::size_t x = step(face.left, right_); x <= step(face.right, right_); ++x)
+        visit(y * kSide + x);
+  }
+
+  double right_ = 0, bottom_ = 0;
+  std::vector<std::vector<std::size_t>> squares_;
+};
+
 /// What `other` hides of `face`, of what is left of it.
 ClipperLib::Paths hidden_by(const PictureFace& face, const ClipperLib::Paths& left,
                             const PictureFace& other, const ClipperLib::Paths& paths,
@@ -95,14 +138,12 @@ ClipperLib::Paths hidden_by(const PictureFace& face, const ClipperLib::Paths& le
 std::vector<std::vector<PictureRing>> visible_rings(std::span<const PictureFace> faces) {
   std::vector<ClipperLib::Paths> paths;
   for (const PictureFace& face : faces) paths.push_back(paths_of(face));
-  std::vector<std::size_t> by_left(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) by_left[i] = i;
-  std::ranges::stable_sort(by_left, {}, [&](std::size_t i) { return faces[i].left; });
+  const FaceGrid grid(faces);
   std::vector<std::vector<PictureRing>> visible(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     ClipperLib::Paths left = combined(ClipperLib::ctUnion, paths[i], {});
-    for (const std::size_t j : by_left) {
-      if (faces[j].left >= faces[i].right || left.empty()) break;
+    for (const std::size_t j : grid.near(faces[i])) {
+      if (left.empty()) break;
       if (i == j || !boxes_meet(faces[i], faces[j])) continue;
       const ClipperLib::Paths hidden = hidden_by(faces[i], left, faces[j], paths[j], j > i);
       if (!hidden.empty()) left = combined(ClipperLib::ctDifference, left, hidden);
