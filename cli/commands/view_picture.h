@@ -28,16 +28,17 @@ struct PictureArguments {
   std::optional<std::size_t> most_panels;
 };
 
-/// The format that the ending of a name says; none for a page.
+/// Reads the format off the ending of a name; none for a page.
 std::optional<PictureFormat> picture_format(const std::string& path);
 
+/// Adds the options of pictures to a command.
 void add_picture_arguments(CLI::App& command, PictureArguments& arguments);
 
 /// Makes options of the texts. Throws CLI::ValidationError for what is none, and for options of a
 /// picture where a page is written.
 void settle(PictureArguments& arguments, bool is_picture, bool has_after);
 
-/// What a file says of a building's parts, as it would be written.
+/// Puts what a file says of a building's parts in the form in which it is written.
 LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carried);
 
 /// Gathers the buildings of a run as panels: one of all of them, with `--grid` one of each, with
@@ -55,9 +56,9 @@ class PanelGatherer {
   void add_after(const Building& building, const PipelineResult& result,
                  const CarriedLabels* carried);
 
-  /// The panels, moved to the origin, with what differs from the first one marked in those after
-  /// it. Throws InputError E163 if buildings of one panel are so far apart that nothing would be
-  /// seen.
+  /// Gives the panels, moved to the origin, with what differs from the first one marked in those
+  /// after it. Throws InputError E163 if buildings of one panel are so far apart that nothing would
+  /// be seen.
   [[nodiscard]] std::vector<PicturePanel> panels() const;
   /// How many panels there was no room for.
   [[nodiscard]] std::size_t left_out() const { return left_out_; }

@@ -10,11 +10,11 @@ namespace oriel {
 /// Red, green and blue as screens have them (sRGB).
 using Colour = std::array<std::uint8_t, 3>;
 
-/// The colour of a label: usual ones have their own, others one of the same colours, by the label's
-/// letters.
+/// Finds the colour of a label: usual ones have their own, others one of the same colours, by the
+/// label's letters.
 Colour colour_of_label(std::string_view label);
 
-/// The colour of a type of surface: "WallSurface", "RoofSurface", "GroundSurface", "Window",
+/// Finds the colour of a type of surface: "WallSurface", "RoofSurface", "GroundSurface", "Window",
 /// "Door".
 Colour colour_of_surface(std::string_view surface);
 

@@ -26,9 +26,10 @@ struct Camera {
   Vec3 right, up, towards;
 };
 
+/// Looks at the origin from an azimuth, clockwise from north, and an elevation.
 Camera camera_at(double azimuth_deg, double elevation_deg);
 
-/// The camera that `options` ask for; none if no wall looks to the side of a facade.
+/// Makes the camera that `options` ask for; none if no wall looks to the side of a facade.
 std::optional<Camera> camera_of(const MeshSource& mesh, const PictureOptions& options);
 
 /// Where a camera's picture lies: what is `middle` (metres along right and up) is in the middle of

@@ -41,12 +41,13 @@ struct PictureDrawing {
   std::vector<PictureGroup> groups{};
 };
 
+/// Writes a drawing as SVG, a group of it as an element `g`.
 std::string svg_of(const PictureDrawing& drawing);
-/// Whether Cairo is installed, which pdf_of() and png_of() take.
+/// Says whether Cairo is installed, which pdf_of() and png_of() take.
 bool has_cairo();
-/// One page; a pixel is 1/96 inch.
+/// Writes a drawing as one page; a pixel is 1/96 inch.
 std::string pdf_of(const PictureDrawing& drawing);
-/// The groups over the raster, which has the size of the drawing.
+/// Draws the groups over the raster, which has the size of the drawing.
 std::string png_of(const PictureDrawing& drawing, const Raster& raster);
 
 }  // namespace oriel::detail

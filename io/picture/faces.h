@@ -36,8 +36,8 @@ struct PictureFace {
   }
 };
 
-/// The faces of a mesh that can be seen from the camera if nothing hides them: those of closed
-/// bodies that look towards it, and both sides of others. In the order of the polygons.
+/// Gives the faces of a mesh that can be seen from the camera if nothing hides them: those of
+/// closed bodies that look towards it, and both sides of others. In the order of the polygons.
 std::vector<PictureFace> faces_of(const MeshSource& mesh, const Camera& camera,
                                   const Placing& placing);
 

@@ -19,14 +19,14 @@ PictureTheme theme_of(bool is_dark);
 /// have no number.
 using SeenClasses = std::map<std::string, std::size_t>;
 
-/// A row of patches with names and numbers, in lines of `within`, from its top on: parts by number,
-/// then surfaces.
+/// Makes a row of patches with names and numbers, in lines of `within`, from its top on: parts by
+/// number, then surfaces.
 PictureGroup legend(const SeenClasses& classes, const PictureBox& within,
                     const PictureTheme& theme);
-/// What legend() takes of the height.
+/// Measures what legend() takes of the height.
 double legend_height_px(const SeenClasses& classes, double width_px);
 
-/// A bar of a round number of metres (1, 2 or 5 times a power of ten) in the box's left lower
+/// Makes a bar of a round number of metres (1, 2 or 5 times a power of ten) in the box's left lower
 /// corner.
 PictureGroup scale_bar(const Placing& placing, const PictureTheme& theme);
 

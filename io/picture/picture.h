@@ -62,7 +62,7 @@ struct PicturePanel {
 /// Moves what a panel shows to the origin: coordinates of a country have too many digits.
 void move_to_origin(PicturePanel& panel);
 
-/// The bytes of a picture of `panels`, which lie side by side; the same whatever the machine, but
+/// Draws panels side by side. Returns the bytes of the picture, the same whatever the machine, but
 /// for the shapes of letters. Faces have the colour of their label, or of their surface (wall,
 /// roof, ground), shaded by their slope; hidden parts are not drawn. In SVG each part is a group
 /// with its id and label.

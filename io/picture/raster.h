@@ -25,8 +25,8 @@ struct Raster {
 void draw_faces(std::span<const PictureFace> faces, const std::set<int>& marked_features,
                 const PictureBox& within, Raster& raster);
 
-/// How many pixels of each face can be seen, before lines are drawn: of a raster of that size, each
-/// pixel of kFiner × kFiner samples, as a share of them. For tests of visible_rings().
+/// Counts the pixels of each face that can be seen, before lines are drawn: of a raster of that
+/// size, each pixel of kFiner × kFiner samples, as a share of them. For tests of visible_rings().
 std::vector<double> seen_pixels(std::span<const PictureFace> faces, int width, int height);
 
 }  // namespace oriel::detail
