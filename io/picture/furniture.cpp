@@ -10,8 +10,6 @@ namespace oriel::detail {
 namespace {
 
 constexpr double kText_px = 14, kLine_px = 24, kPatch_px = 14, kGap_px = 8, kBetween_px = 22;
-/// About what a letter of DejaVu Sans takes, of its size; texts are set apart by it.
-constexpr double kLetter = 0.62;
 /// A scale bar is at most this share of its panel.
 constexpr double kBar = 0.3;
 

@@ -9,14 +9,17 @@
 
 namespace oriel::detail {
 
+/// About what a letter of DejaVu Sans takes, of its size; texts are set apart by it.
+inline constexpr double kLetter = 0.62;
+
 /// Colours of what stands around the buildings.
 struct PictureTheme {
   Colour ground, ink, line;
 };
 PictureTheme theme_of(bool is_dark);
 
-/// The classes that are seen, each with the number of its features that are seen; plain surfaces
-/// have no number.
+/// The classes that are shown, each with the number of its features; of 0, and of plain surfaces,
+/// no number is written.
 using SeenClasses = std::map<std::string, std::size_t>;
 
 /// Makes a row of patches with names and numbers, in lines of `within`, from its top on: parts by

@@ -124,11 +124,14 @@ void append_parts(const PlacedPanel& placed, std::vector<PictureGroup>& groups) 
   }
 }
 
+/// Writes a caption below its panel; a long one in small letters.
 PictureGroup caption(const PlacedPanel& placed, const PictureTheme& theme) {
   const PictureBox& box = placed.placing.box;
+  const std::string& text = placed.panel->caption;
+  const double fitting_px = box.width / (kLetter * static_cast<double>(text.size()));
   return {.texts = {{.at = {box.left + box.width / 2, box.top + box.height + kCaptionText_px + 4},
-                     .text = placed.panel->caption,
-                     .size_px = kCaptionText_px,
+                     .text = text,
+                     .size_px = std::min(kCaptionText_px, fitting_px),
                      .anchor = TextAnchor::middle,
                      .colour = theme.ink}}};
 }
