@@ -63,20 +63,21 @@ std::optional<Camera> camera_of(const MeshSource& mesh, const PictureOptions& op
   return camera_at(*azimuth, 0);
 }
 
-Placing placing_in(const MeshSource& mesh, const Camera& camera, const PictureBox& box) {
+Placing placing_in(const MeshSource& mesh, const Camera& camera, const PictureBox& box,
+                   Vec3 origin) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   std::array<double, 2> least{kFar, kFar}, most{-kFar, -kFar};
   for (const MeshPolygon& polygon : mesh.polygons)
     for (const auto& ring : polygon.rings)
       for (const int v : ring) {
-        const Vec3 point = mesh.points[at(v)];
+        const Vec3 point = mesh.points[at(v)] - origin;
         const std::array<double, 2> p{dot(point, camera.right), dot(point, camera.up)};
         for (std::size_t i = 0; i < 2; ++i) {
           least[i] = std::min(least[i], p[i]);
           most[i] = std::max(most[i], p[i]);
         }
       }
-  Placing placing{.box = box};
+  Placing placing{.origin = origin, .box = box};
   if (least[0] > most[0]) return placing;
   for (std::size_t i = 0; i < 2; ++i) {
     placing.middle[i] = (least[i] + most[i]) / 2;

@@ -32,21 +32,25 @@ Camera camera_at(double azimuth_deg, double elevation_deg);
 /// Makes the camera that `options` ask for; none if no wall looks to the side of a facade.
 std::optional<Camera> camera_of(const MeshSource& mesh, const PictureOptions& options);
 
-/// Where a camera's picture lies: what is `middle` (metres along right and up) is in the middle of
-/// the box.
+/// Where a camera's picture lies: what is `middle` (metres along right and up from the origin) is
+/// in the middle of the box.
 struct Placing {
+  /// Near what is shown: coordinates of a country have too many digits for a depth buffer.
+  Vec3 origin;
   std::array<double, 2> middle{};
   std::array<double, 2> size_m{};
   double pixels_per_m = 1;
   PictureBox box;
 
   [[nodiscard]] PicturePoint at(const Camera& camera, Vec3 point) const {
-    return {box.left + box.width / 2 + (dot(point, camera.right) - middle[0]) * pixels_per_m,
-            box.top + box.height / 2 - (dot(point, camera.up) - middle[1]) * pixels_per_m};
+    const Vec3 from = point - origin;
+    return {box.left + box.width / 2 + (dot(from, camera.right) - middle[0]) * pixels_per_m,
+            box.top + box.height / 2 - (dot(from, camera.up) - middle[1]) * pixels_per_m};
   }
 };
 
 /// Puts all of the mesh into the box, with a margin.
-Placing placing_in(const MeshSource& mesh, const Camera& camera, const PictureBox& box);
+Placing placing_in(const MeshSource& mesh, const Camera& camera, const PictureBox& box,
+                   Vec3 origin = {});
 
 }  // namespace oriel::detail

@@ -57,7 +57,8 @@ std::array<double, 3> nearness_of(const MeshSource& mesh, const MeshPolygon& pol
   const double along_x = -dot(normal, camera.right) / facing / placing.pixels_per_m;
   const double along_y = dot(normal, camera.up) / facing / placing.pixels_per_m;
   const PicturePoint at = placing.at(camera, middle);
-  return {dot(middle, camera.towards) - along_x * at.x - along_y * at.y, along_x, along_y};
+  return {dot(middle - placing.origin, camera.towards) - along_x * at.x - along_y * at.y, along_x,
+          along_y};
 }
 
 }  // namespace

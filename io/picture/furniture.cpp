@@ -1,5 +1,7 @@
 #include "io/picture/furniture.h"
 
+#include "kernel/base/text/printable.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +28,7 @@ std::vector<LegendEntry> entries_of(const SeenClasses& classes) {
   });
   std::vector<LegendEntry> entries;
   for (const auto& [name, count] : order) {
-    std::string word = name.empty() ? "unlabelled" : name;
+    std::string word = name.empty() ? "unlabelled" : printable(name);
     std::ranges::replace(word, '_', ' ');
     if (word.starts_with("outer")) word.insert(5, " ");
     const bool has_number = count > 0 && is_label_of_part(name);

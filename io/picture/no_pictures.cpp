@@ -3,8 +3,6 @@
 
 namespace oriel {
 
-void move_to_origin(PicturePanel& /*panel*/) {}
-
 Checked<std::string> picture(const std::vector<PicturePanel>& /*panels*/, PictureFormat /*format*/,
                              const PictureOptions& /*options*/) {
   Issue issue;

@@ -4,6 +4,7 @@
 #include "io/picture/furniture.h"
 #include "io/picture/visible.h"
 #include "kernel/base/index.h"
+#include "kernel/base/text/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,8 @@ namespace {
 
 using namespace detail;
 
+/// Buildings that are farther apart cannot be seen in one picture: a town is.
+constexpr double kMostApart_m = 20'000;
 constexpr double kMargin_px = 12, kCaption_px = 26, kCaptionText_px = 14;
 
 /// A panel in its place, with what can be seen of it.
@@ -32,6 +35,7 @@ struct PlacedPanel {
 };
 
 std::size_t columns_for(std::size_t panels, const PictureOptions& options) {
+  panels = std::max<std::size_t>(1, panels);
   if (options.columns > 0) return std::min(panels, at(options.columns));
   // As square as the picture lets them be.
   const double wanted =
@@ -69,11 +73,23 @@ void share_frames(std::vector<PlacedPanel>& panels) {
   }
 }
 
-/// The first panel of the frame of a panel.
-std::size_t first_of_frame(const std::vector<PicturePanel>& panels, std::size_t panel) {
-  if (panels[panel].frame < 0) return panel;
-  return static_cast<std::size_t>(
-      std::ranges::find(panels, panels[panel].frame, &PicturePanel::frame) - panels.begin());
+/// Finds the first panel of the frame of each panel.
+std::vector<std::size_t> firsts_of_frames(const std::vector<PicturePanel>& panels) {
+  std::map<int, std::size_t> first_of;
+  std::vector<std::size_t> firsts;
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    firsts.push_back(panels[i].frame < 0 ? i
+                                         : first_of.try_emplace(panels[i].frame, i).first->second);
+  return firsts;
+}
+
+/// Measures what the frame of each panel shows, by the frame's first panel.
+std::vector<Box> boxes_of_frames(const std::vector<PicturePanel>& panels,
+                                 const std::vector<std::size_t>& firsts) {
+  std::vector<Box> boxes(panels.size());
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    for (const Vec3 point : panels[i].mesh.points) boxes[firsts[i]].grow(point);
+  return boxes;
 }
 
 std::set<int> marked_of(const PicturePanel& panel) {
@@ -127,7 +143,7 @@ void append_parts(const PlacedPanel& placed, std::vector<PictureGroup>& groups) 
 /// Writes a caption below its panel; a long one in small letters.
 PictureGroup caption(const PlacedPanel& placed, const PictureTheme& theme) {
   const PictureBox& box = placed.placing.box;
-  const std::string& text = placed.panel->caption;
+  const std::string text = printable(placed.panel->caption);
   const double fitting_px = box.width / (kLetter * static_cast<double>(text.size()));
   return {.texts = {{.at = {box.left + box.width / 2, box.top + box.height + kCaptionText_px + 4},
                      .text = text,
@@ -163,8 +179,18 @@ Checked<std::vector<PlacedPanel>> placed_panels(const std::vector<PicturePanel>&
                                                 const PictureOptions& options) {
   std::vector<PlacedPanel> placed;
   std::vector<Camera> cameras;
+  const std::vector<std::size_t> firsts = firsts_of_frames(panels);
+  const std::vector<Box> shown = boxes_of_frames(panels, firsts);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const auto camera = camera_of(panels[first_of_frame(panels, i)].mesh, options);
+    const Box& box = shown[firsts[i]];
+    const Vec3 origin = box.is_empty() ? Vec3{} : box.min, size = box.max - origin;
+    if (const double apart_m = std::max(size.x, size.y); apart_m > kMostApart_m)
+      return {std::nullopt,
+              {picture_issue(Code::E163,
+                             fmt::format("the buildings lie over {:.0f} km: in one picture none "
+                                         "would be seen; --grid gives each its own panel",
+                                         apart_m / 1000))}};
+    const auto camera = camera_of(panels[firsts[i]].mesh, options);
     if (!camera)
       return {std::nullopt,
               {picture_issue(Code::E170, fmt::format("no wall looks within 45 degrees of {:g}, "
@@ -172,7 +198,7 @@ Checked<std::vector<PlacedPanel>> placed_panels(const std::vector<PicturePanel>&
                                                      options.azimuth_deg))}};
     cameras.push_back(*camera);
     placed.push_back({.panel = &panels[i],
-                      .placing = placing_in(panels[i].mesh, *camera, boxes[i]),
+                      .placing = placing_in(panels[i].mesh, *camera, boxes[i], origin),
                       .marked = marked_of(panels[i])});
   }
   share_frames(placed);
@@ -196,13 +222,6 @@ Raster blank(const PictureOptions& options, Colour ground) {
 }
 
 }  // namespace
-
-void move_to_origin(PicturePanel& panel) {
-  Box box;
-  for (const Vec3 point : panel.mesh.points) box.grow(point);
-  if (box.is_empty()) return;
-  for (Vec3& point : panel.mesh.points) point = point - box.min;
-}
 
 Checked<std::string> picture(const std::vector<PicturePanel>& panels, PictureFormat format,
                              const PictureOptions& options) {

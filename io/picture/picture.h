@@ -59,16 +59,14 @@ struct PicturePanel {
   std::vector<std::pair<std::string, std::string>> marked{};
 };
 
-/// Moves what a panel shows to the origin: coordinates of a country have too many digits.
-void move_to_origin(PicturePanel& panel);
-
 /// Draws panels side by side. Returns the bytes of the picture, the same whatever the machine, but
 /// for the shapes of letters. Faces have the colour of their label, or of their surface (wall,
 /// roof, ground), shaded by their slope; hidden parts are not drawn. In SVG each part is a group
 /// with its id and label.
 ///
-/// Without a value: E170 if no face looks to the side of a facade that was asked for, E171 if this
-/// build has no pictures, or, for PNG and PDF, Cairo is not installed.
+/// Without a value: E163 if the buildings of a panel, or of the panels of a frame, lie so far apart
+/// that none would be seen, E170 if no face looks to the side of a facade that was asked for, E171
+/// if this build has no pictures, or, for PNG and PDF, Cairo is not installed.
 Checked<std::string> picture(const std::vector<PicturePanel>& panels, PictureFormat format,
                              const PictureOptions& options = {});
 

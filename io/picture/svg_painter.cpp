@@ -2,6 +2,8 @@
 #include "kernel/base/text/xml.h"
 
 #include <iterator>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -48,6 +50,13 @@ void append_text(std::string& out, const PictureText& text) {
                  escaped_xml(text.text));
 }
 
+/// Returns an id that no group had before: an id stands once in a file.
+std::string unique_id(const std::string& id, std::map<std::string, int>& taken) {
+  const int count = ++taken[id];
+  if (count == 1) return id;
+  return unique_id(fmt::format("{}-{}", id, count), taken);
+}
+
 }  // namespace
 
 std::string svg_of(const PictureDrawing& drawing) {
@@ -59,9 +68,11 @@ std::string svg_of(const PictureDrawing& drawing) {
   if (drawing.ground)
     fmt::format_to(std::back_inserter(out), "<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
                    hex(*drawing.ground));
+  std::map<std::string, int> taken;
   for (const PictureGroup& group : drawing.groups) {
     out += "<g";
-    if (!group.id.empty()) out += fmt::format(" id=\"{}\"", escaped_xml(group.id));
+    if (!group.id.empty())
+      out += fmt::format(" id=\"{}\"", escaped_xml(unique_id(group.id, taken)));
     if (!group.label.empty())
       out += fmt::format(" class=\"{0}\" inkscape:label=\"{0}\"", escaped_xml(group.label));
     out += ">\n";

@@ -150,7 +150,6 @@ std::pair<std::string, std::vector<Issue>> picture_of(const MadeList& made,
     for (const LabelledBuilding& labelled : output.buildings)
       append_building(panels.back().mesh, building, labelled);
   }
-  for (PicturePanel& panel : panels) move_to_origin(panel);
   auto drawn = picture(panels, picture_format_of(format), options);
   return {drawn.value.value_or(std::string()), std::move(drawn.issues)};
 }

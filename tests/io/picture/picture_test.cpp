@@ -124,6 +124,42 @@ TEST_SUITE("io") {
     CHECK(svg.find("chimney 1") != std::string::npos);
   }
 
+  TEST_CASE("an id stands once in an SVG however many panels show its part") {
+    const auto made = picture({{.mesh = boxes()}, {.mesh = boxes()}, {.mesh = boxes()}},
+                              PictureFormat::svg, {.elevation_deg = 45});
+    REQUIRE(made.value);
+    for (const char* id : {"id=\"b_chimney1\"", "id=\"b_chimney1-2\"", "id=\"b_chimney1-3\""}) {
+      CAPTURE(id);
+      const std::size_t at = made.value->find(id);
+      CHECK(at != std::string::npos);
+      CHECK(made.value->find(id, at + 1) == std::string::npos);
+    }
+  }
+
+  TEST_CASE("a picture is the same where the coordinates are those of a country") {
+    MeshSource far = boxes();
+    for (Vec3& point : far.points) point = point + Vec3{4'500'000, 5'400'000, 512};
+    CHECK(drawn(far, PictureFormat::png, {}) == drawn(boxes(), PictureFormat::png, {}));
+  }
+
+  TEST_CASE("buildings that lie too far apart are refused in one panel and fit two") {
+    MeshSource far = boxes();
+    for (Vec3& point : far.points) point = point + Vec3{600'000, 0, 0};
+    MeshSource both = boxes();
+    add_box(both, {600'000, 0, 0}, {600'010, 8, 6}, "wall");
+    const auto refused = picture({{.mesh = both}}, PictureFormat::svg);
+    REQUIRE(refused.issues.size() == 1);
+    CHECK(refused.issues[0].code == Code::E163);
+    CHECK(picture({{.mesh = boxes()}, {.mesh = far}}, PictureFormat::svg).value);
+    CHECK(!picture({{.mesh = boxes(), .frame = 1}, {.mesh = far, .frame = 1}}, PictureFormat::svg)
+               .value);
+  }
+
+  TEST_CASE("what no font has and what is no UTF-8 in a caption costs no picture") {
+    for (const auto format : {PictureFormat::png, PictureFormat::svg, PictureFormat::pdf})
+      CHECK(picture({{.mesh = boxes(), .caption = "a\xff\x01\u65e5\u202e<b>"}}, format).value);
+  }
+
   TEST_CASE("a facade is looked at straight and one that is not there is an error") {
     MeshSource mesh = boxes();
     const PictureOptions south{.view = PictureView::facade, .azimuth_deg = 200};
@@ -137,6 +173,7 @@ TEST_SUITE("io") {
 
   TEST_CASE("a picture of nothing and the least and thinnest picture are pictures") {
     for (const auto format : {PictureFormat::png, PictureFormat::svg, PictureFormat::pdf}) {
+      CHECK(picture({}, format).value);
       CHECK(picture({{}}, format).value);
       CHECK(!drawn(boxes(), format, {.width_px = kLeastPicture_px, .height_px = kLeastPicture_px})
                  .empty());
