@@ -7,12 +7,12 @@
 #include "cli/terminal/logging.h"
 #include "io/cityjson/carried_labels.h"
 #include "io/files/output_file.h"
-#include "kernel/base/text/counted.h"
 #include "studio/server/page_files.h"
 #include "studio/session/recording.h"
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -31,6 +31,7 @@ struct ViewArguments : RunOptions, RulesChoice {
   std::string out;
   std::vector<std::string> after;
   PictureArguments picture;
+  std::vector<CLI::Option*> picture_options;
 };
 
 [[noreturn]] void refuse(Code code, const std::string& file, std::string sentence) {
@@ -41,10 +42,37 @@ struct ViewArguments : RunOptions, RulesChoice {
   throw InputError(std::move(issue));
 }
 
-/// Records the buildings of a run, their ids appended to `ids`. With `is_after` they are what
+/// The page of the studio without its editor, in one HTML file that loads nothing.
+class PageExhibit final : public Exhibit {
+ public:
+  explicit PageExhibit(const RuleBase& rules) : recording_(rules) {}
+
+  std::vector<Issue> add(const Document& /*document*/, const Building& building,
+                         const PipelineResult& result) override {
+    recording_.add(building, result);
+    return {};
+  }
+  void begin_after(const std::string& /*file*/) override { recording_.begin_after(); }
+  void add_after(const Building& building, const PipelineResult& result,
+                 const CarriedLabels* carried) override {
+    recording_.add_after(building, result, carried);
+  }
+  std::string made() override {
+    static constexpr std::string_view kMark = "{{data}}";
+    const std::string_view page = studio::page_file("view.html");
+    const std::size_t at = page.find(kMark);
+    std::string whole(page.substr(0, at));
+    return whole.append(recording_.json()).append(page.substr(at + kMark.size()));
+  }
+
+ private:
+  studio::Recording recording_;
+};
+
+/// Gathers the buildings of a run, their ids appended to `ids`. With `is_after` they are what
 /// became of those before, and have the labels of oriel that they carry.
-ExitCode record(const RunOptions& arguments, const RuleBase& rules, Report& report,
-                studio::Recording& recording, std::vector<std::string>& ids, bool is_after) {
+ExitCode gather(const RunOptions& arguments, const RuleBase& rules, Report& report,
+                Exhibit& exhibit, std::vector<std::string>& ids, bool is_after) {
   BatchRunner runner(arguments, &rules, report);
   std::map<std::string, int> counts;
   RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
@@ -58,11 +86,18 @@ ExitCode record(const RunOptions& arguments, const RuleBase& rules, Report& repo
       } else {
         for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
       }
-      if (is_after)
-        recording.add_after(document.buildings[i], lines[i], carried ? &*carried : nullptr);
-      else
-        recording.add(document.buildings[i], lines[i]);
-      ids.push_back(document.buildings[i].id);
+      const Building& building = document.buildings[i];
+      ids.push_back(building.id);
+      if (is_after) {
+        exhibit.add_after(building, lines[i], carried ? &*carried : nullptr);
+        continue;
+      }
+      for (const Issue& issue : exhibit.add(document, building, lines[i])) {
+        if (issue.severity == Severity::error)
+          runner.set_aside(issue);
+        else
+          runner.warn(issue);
+      }
     }
   });
   const ExitCode code = runner.run(visitor);
@@ -107,76 +142,22 @@ void check_page_name(const std::string& path) {
                         path, ending));
 }
 
-/// One HTML file that shows a recording and loads nothing: the page of the studio without its
-/// editor.
-std::string page_of(const studio::Recording& recording) {
-  static constexpr std::string_view kMark = "{{data}}";
-  const std::string_view page = studio::page_file("view.html");
-  const std::size_t at = page.find(kMark);
-  std::string whole(page.substr(0, at));
-  return whole.append(recording.json()).append(page.substr(at + kMark.size()));
+/// Options of pictures say nothing of a page.
+void check_picture_options(const ViewArguments& arguments) {
+  for (const CLI::Option* option : arguments.picture_options)
+    if (option->count() > 0)
+      throw CLI::ValidationError(option->get_name(),
+                                 "is of pictures: end the name of -o in .png, .svg or .pdf");
+  if (arguments.after.size() > 1)
+    throw CLI::ValidationError("--after", "a page shows one file beside the first");
 }
 
-/// Reads what became of the buildings in a file, into a panel of its own.
-ExitCode gather_after(const RunOptions& arguments, const RuleBase& rules, Report& report,
-                      PanelGatherer& gatherer) {
-  BatchRunner runner(arguments, &rules, report);
-  bool is_found = false;
-  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
-    const CarriedLabelReader reader(document);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (lines[i].is_passed_over) continue;
-      const auto carried = reader.labels_of(i);
-      gatherer.add_after(document.buildings[i], lines[i], carried ? &*carried : nullptr);
-      is_found = true;
-    }
-  });
-  const ExitCode code = runner.run(visitor);
-  if (!is_found && code != ExitCode::input)
-    refuse(Code::E128, arguments.inputs.front(), "has none of the buildings that are shown");
-  return code;
-}
-
-std::string name_of(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
-
-/// Labels the buildings and writes a picture of them.
-ExitCode draw(ViewArguments& arguments, const RuleBase& rules, PictureFormat format,
-              Report& report) {
-  BatchRunner runner(arguments, &rules, report);
-  PanelGatherer gatherer(arguments.picture, rules, arguments.label_options());
-  std::map<std::string, int> counts;
-  std::vector<std::string> ids;
-  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
-    if (!runner.is_last_run()) return;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (lines[i].is_passed_over) continue;
-      for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
-      gatherer.add(document, document.buildings[i], lines[i]);
-      ids.push_back(document.buildings[i].id);
-    }
-  });
-  ExitCode code = runner.run(visitor);
-  runner.report_summary("shown", counts);
-  if (ids.empty()) {
-    if (code == ExitCode::input) return code;
-    refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
-  }
-  if (!arguments.picture.scales.empty() && ids.size() > 1)
-    arguments.picture.options.columns = static_cast<int>(arguments.picture.scales.size()) + 1;
-  for (const std::string& file : arguments.after) {
-    gatherer.begin_after(name_of(arguments.inputs.front()), name_of(file));
-    code =
-        graver(code, gather_after(arguments_after(arguments, file, ids), rules, report, gatherer));
-  }
-  if (gatherer.left_out() > 0)
-    run_log().info("--grid {} has no room for {}", arguments.picture.grid,
-                   counted(gatherer.left_out(), "more building"));
-  Checked<std::string> made = picture(gatherer.panels(), format, arguments.picture.options);
-  if (!made.value) throw InputError(std::move(made.issues.front()));
-  write_file(arguments.out, *made.value);
-  return code;
+std::unique_ptr<Exhibit> exhibit_for(ViewArguments& arguments, std::optional<PictureFormat> format,
+                                     const RuleBase& rules) {
+  if (!format) return std::make_unique<PageExhibit>(rules);
+  return std::make_unique<PictureExhibit>(
+      arguments.picture, *format, rules, arguments.label_options(),
+      std::filesystem::path(arguments.inputs.front()).filename().string());
 }
 
 ExitCode work(ViewArguments& arguments) {
@@ -184,37 +165,37 @@ ExitCode work(ViewArguments& arguments) {
   settle_inputs(arguments, report);
   check_names(arguments);
   const auto format = picture_format(arguments.out);
-  settle(arguments.picture, format.has_value(), !arguments.after.empty());
-  if (!format) check_page_name(arguments.out);
-  if (!format && arguments.after.size() > 1)
-    throw CLI::ValidationError("--after", "a page shows one file beside the first");
+  if (format) {
+    settle(arguments.picture);
+  } else {
+    check_page_name(arguments.out);
+    check_picture_options(arguments);
+  }
   const auto rules = load_rules(arguments, report);
   if (!rules) return ExitCode::rules;
   find_neighbours(arguments, report);
-  if (format) return draw(arguments, *rules, *format, report);
-  studio::Recording recording(*rules);
+  const auto exhibit = exhibit_for(arguments, format, *rules);
   std::vector<std::string> ids;
-  ExitCode code = record(arguments, *rules, report, recording, ids, false);
+  ExitCode code = gather(arguments, *rules, report, *exhibit, ids, false);
   if (ids.empty()) {
     if (code == ExitCode::input) return code;
     refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
   }
-  const std::size_t shown = ids.size();
   for (const std::string& file : arguments.after) {
     std::vector<std::string> found;
-    recording.begin_after();
+    exhibit->begin_after(file);
     const ExitCode second =
-        record(arguments_after(arguments, file, ids), *rules, report, recording, found, true);
+        gather(arguments_after(arguments, file, ids), *rules, report, *exhibit, found, true);
     if (found.empty() && second == ExitCode::input) return second;
     if (found.empty()) refuse(Code::E128, file, "has none of the buildings that are shown");
     code = graver(code, second);
   }
-  if (shown > kMostOfAPage)
+  if (!format && ids.size() > kMostOfAPage)
     run_log().info(
         "{} buildings are many for one page, which opens slowly; `oriel studio {}` shows them from "
         "a local server",
-        shown, fmt::join(arguments.inputs, " "));
-  write_file(arguments.out, page_of(recording));
+        ids.size(), fmt::join(arguments.inputs, " "));
+  write_file(arguments.out, exhibit->made());
   return code;
 }
 
@@ -244,7 +225,7 @@ void add_view(CLI::App& app, Action& action) {
       "  oriel view house.city.json --scales 1:1000,1:2500,1:5000 --facade south -o scales.svg\n"
       "  oriel generalise house.city.json --scale 1:2500 -o small.city.json\n"
       "  oriel view house.city.json --after small.city.json -o house.html");
-  add_picture_arguments(*command, arguments->picture);
+  arguments->picture_options = add_picture_arguments(*command, arguments->picture);
   arguments->joins_installations = true;
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }

@@ -1,13 +1,17 @@
 #include "cli/commands/view_picture.h"
 
 #include "cli/commands/options.h"
+#include "cli/terminal/logging.h"
 #include "kernel/base/text/counted.h"
 #include "oriel/generalise.h"
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,9 +19,6 @@
 namespace oriel::cli {
 
 namespace {
-
-/// Buildings that are farther apart cannot be seen in one picture: a town is.
-constexpr double kMostApart_m = 20'000;
 
 const std::map<std::string, PictureFormat> kEndings{
     {".png", PictureFormat::png}, {".svg", PictureFormat::svg}, {".pdf", PictureFormat::pdf}};
@@ -94,135 +95,16 @@ std::vector<FeatureName> differences(const MeshSource& before, const MeshSource&
   return names;
 }
 
-/// "1:5000: 12 windows, 3 other parts".
+/// "1:5000: 12 openings": windows and doors by the type of their surfaces, whatever a pack calls
+/// them.
 std::string drawn_caption(const std::string& target, const MeshSource& mesh) {
-  std::set<int> features;
-  for (const MeshPolygon& polygon : mesh.polygons) features.insert(polygon.feature);
-  std::size_t openings = 0;
-  for (const int feature : features) {
-    if (feature < 0) continue;
-    const std::string& label = mesh.features[static_cast<std::size_t>(feature)].label;
-    if (label == "window" || label == "door") ++openings;
-  }
-  return fmt::format("{}: {}", target, counted(openings, "opening"));
+  std::set<int> openings;
+  for (const MeshPolygon& polygon : mesh.polygons)
+    if (polygon.surface == "Window" || polygon.surface == "Door") openings.insert(polygon.feature);
+  return fmt::format("{}: {}", target, counted(openings.size(), "opening"));
 }
 
-}  // namespace
-
-std::optional<PictureFormat> picture_format(const std::string& path) {
-  for (const auto& [ending, format] : kEndings)
-    if (path.ends_with(ending)) return format;
-  return std::nullopt;
-}
-
-void add_picture_arguments(CLI::App& command, PictureArguments& arguments) {
-  constexpr const char* kGroup = "Pictures (-o FILE.png, .svg or .pdf)";
-  const auto add = [&](CLI::Option* option) {
-    option->group(kGroup);
-    return option;
-  };
-  PictureOptions& options = arguments.options;
-  add(command
-          .add_option("--azimuth", options.azimuth_deg,
-                      "Where the viewer stands, in degrees clockwise from north")
-          ->check(CLI::Range(-360.0, 360.0))
-          ->capture_default_str());
-  add(command.add_option("--elevation", options.elevation_deg, "How high, in degrees")
-          ->check(CLI::Range(-90.0, 90.0))
-          ->capture_default_str());
-  add(command.add_option("--facade", arguments.facade,
-                         "Looks straight at the largest facade of a side: north, east, south, west "
-                         "or degrees"));
-  add(command.add_flag("--plan", arguments.is_plan, "Looks from straight above, north up"));
-  add(command.add_option("--size", arguments.size,
-                         "Width and height in pixels, 1200,900 if not given"));
-  add(command.add_option("--grid", arguments.grid,
-                         "A panel for each building, so many beside and below each other: 4x3"));
-  add(command
-          .add_option("--scales", arguments.scale_texts,
-                      "A panel for each scale, with the building as it is drawn for it")
-          ->delimiter(','));
-  add(command
-          .add_option("--at-map-size", options.map_dpi,
-                      "With --scales: each drawing once more as large as on a map of so many dots "
-                      "an inch, 300 for paper")
-          ->check(CLI::Range(50.0, 1200.0)));
-  add(command.add_flag("--dark", options.is_dark, "Dark ground"));
-  add(command.add_flag("--transparent", options.is_transparent, "No ground"));
-  add(command.add_flag("--scale-bar", options.has_scale_bar, "A bar of metres"));
-  add(command.add_flag("--no-legend", arguments.has_no_legend, "No list of classes"));
-}
-
-void settle(PictureArguments& arguments, bool is_picture, bool has_after) {
-  PictureOptions& options = arguments.options;
-  const PictureOptions usual;
-  const bool says_anything =
-      !arguments.facade.empty() || !arguments.size.empty() || !arguments.grid.empty() ||
-      !arguments.scale_texts.empty() || arguments.is_plan || arguments.has_no_legend ||
-      options.is_dark || options.is_transparent || options.has_scale_bar ||
-      options.azimuth_deg != usual.azimuth_deg || options.elevation_deg != usual.elevation_deg;
-  if (!is_picture) {
-    if (says_anything)
-      throw CLI::ValidationError("-o",
-                                 "options of pictures need a name that ends in .png, .svg or "
-                                 ".pdf");
-    return;
-  }
-  if (arguments.is_plan && !arguments.facade.empty())
-    throw CLI::ValidationError("--plan", "excludes --facade");
-  if (arguments.is_plan) options.view = PictureView::plan;
-  if (!arguments.facade.empty()) {
-    options.view = PictureView::facade;
-    options.azimuth_deg = side_deg(arguments.facade);
-  }
-  if (!arguments.size.empty())
-    std::tie(options.width_px, options.height_px) =
-        two_numbers(arguments.size, ',', "--size", "1200,900", kLeastPicture_px, kMostPicture_px);
-  if (!arguments.grid.empty()) {
-    const auto [columns, rows] = two_numbers(arguments.grid, 'x', "--grid", "4x3", 1, 100);
-    options.columns = columns;
-    arguments.most_panels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  }
-  if (options.map_dpi > 0 && arguments.scale_texts.empty())
-    throw CLI::ValidationError("--at-map-size", "needs --scales");
-  arguments.scales = scales_of(arguments.scale_texts, "--scales");
-  if (has_after && (!arguments.grid.empty() || !arguments.scales.empty()))
-    throw CLI::ValidationError("--after", "excludes --grid and --scales");
-  options.has_legend = !arguments.has_no_legend;
-}
-
-void PanelGatherer::add(const Document& document, const Building& building,
-                        const PipelineResult& result) {
-  if (arguments_.most_panels && panels_.size() >= *arguments_.most_panels) {
-    ++left_out_;
-    return;
-  }
-  const bool has_own_panel = !arguments_.grid.empty() || !arguments_.scales.empty();
-  if (has_own_panel || panels_.empty())
-    panels_.push_back({.caption = has_own_panel ? building.id : std::string()});
-  append_building(panels_.back().mesh, building, annotate(building, result, rules_, options_));
-  if (!arguments_.scales.empty()) add_scales(document, building, result);
-}
-
-void PanelGatherer::add_scales(const Document& document, const Building& building,
-                               const PipelineResult& result) {
-  panels_.back().caption = drawn_caption(building.id, panels_.back().mesh);
-  panels_.back().frame = static_cast<int>(panels_.size());
-  const int frame = panels_.back().frame;
-  for (const double scale : arguments_.scales) {
-    GeneraliseOptions options;
-    static_cast<LabelOptions&>(options) = options_;
-    OutputRecord output;
-    oriel::add(generalise(document, building, result, rules_, at_scale(scale), options), output);
-    PicturePanel panel{.frame = frame, .map_scale = scale};
-    for (const LabelledBuilding& drawn : output.buildings)
-      append_building(panel.mesh, building, drawn);
-    panel.caption = drawn_caption(at_scale(scale).text(), panel.mesh);
-    if (output.buildings.empty()) panel.caption = at_scale(scale).text() + ": not drawn";
-    panels_.push_back(std::move(panel));
-  }
-}
-
+/// Puts what a file says of a building's parts in the form in which it is written.
 LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carried) {
   LabelledBuilding made;
   made.building = building.id;
@@ -249,48 +131,157 @@ LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carr
   return made;
 }
 
-void PanelGatherer::begin_after(const std::string& before, const std::string& after) {
-  if (!has_after_) panels_.front().caption = before;
-  has_after_ = true;
-  panels_.front().frame = 0;
-  panels_.push_back({.caption = after, .frame = 0});
+}  // namespace
+
+std::optional<PictureFormat> picture_format(const std::string& path) {
+  for (const auto& [ending, format] : kEndings)
+    if (path.ends_with(ending)) return format;
+  return std::nullopt;
 }
 
-void PanelGatherer::add_after(const Building& building, const PipelineResult& result,
-                              const CarriedLabels* carried) {
-  append_building(panels_.back().mesh, building,
-                  carried == nullptr ? annotate(building, result, rules_, options_)
-                                     : labelled_as(building, *carried));
+std::vector<CLI::Option*> add_picture_arguments(CLI::App& command, PictureArguments& arguments) {
+  std::vector<CLI::Option*> added;
+  const auto add = [&](CLI::Option* option) {
+    option->group("Pictures (-o FILE.png, .svg or .pdf)");
+    return added.emplace_back(option);
+  };
+  PictureOptions& options = arguments.options;
+  CLI::Option* azimuth = add(command
+                                 .add_option("--azimuth", options.azimuth_deg,
+                                             "Degrees clockwise from north where the viewer stands")
+                                 ->check(CLI::Range(-360.0, 360.0))
+                                 ->capture_default_str());
+  CLI::Option* elevation = add(
+      command
+          .add_option("--elevation", options.elevation_deg, "Degrees above the ground, likewise")
+          ->check(CLI::Range(-90.0, 90.0))
+          ->capture_default_str());
+  CLI::Option* facade = add(command.add_option(
+      "--facade", arguments.facade,
+      "Look straight at the largest facade of a side: north, east, south, west or degrees"));
+  CLI::Option* plan =
+      add(command.add_flag("--plan", arguments.is_plan, "Look from straight above, north up"));
+  for (CLI::Option* view : {facade, plan}) view->excludes(azimuth)->excludes(elevation);
+  plan->excludes(facade);
+  add(command.add_option("--size", arguments.size,
+                         "Width and height in pixels (default 1200,900)"));
+  CLI::Option* grid = add(
+      command.add_option("--grid", arguments.grid,
+                         "Give each building a panel; 4x3: four beside each other, three rows"));
+  CLI::Option* scales =
+      add(command
+              .add_option("--scales", arguments.scale_texts,
+                          "Give each scale a panel with the building as it is drawn for it")
+              ->delimiter(','));
+  CLI::Option* after = command.get_option("--after");
+  grid->excludes(scales)->excludes(after);
+  scales->excludes(after);
+  add(command
+          .add_option("--at-map-size", options.map_dpi,
+                      "Draw each scale once more as large as on a map with DPI dots per inch, 300 "
+                      "for paper")
+          ->type_name("DPI")
+          ->check(CLI::Range(50.0, 1200.0))
+          ->needs(scales));
+  add(command.add_flag("--dark", options.is_dark, "Draw on dark ground"));
+  add(command.add_flag("--transparent", options.is_transparent, "Draw on no ground"));
+  add(command.add_flag("--scale-bar", options.has_scale_bar, "Add a bar of metres"));
+  add(command.add_flag("--no-legend", arguments.has_no_legend, "Leave out the list of classes"));
+  return added;
 }
 
-std::vector<PicturePanel> PanelGatherer::panels() const {
-  std::vector<PicturePanel> panels = panels_;
-  for (std::size_t i = 1; i < panels.size() && has_after_; ++i)
-    panels[i].marked = differences(panels.front().mesh, panels[i].mesh);
-  if (has_after_ && panels.size() == 2) panels.front().marked = panels.back().marked;
-  Box box;
-  for (PicturePanel& panel : panels) {
-    // Those of one frame move together.
-    const bool goes_on =
-        panel.frame >= 0 && &panel != &panels.front() && panel.frame == (&panel - 1)->frame;
-    if (!goes_on) {
-      box = {};
-      for (const Vec3 point : panel.mesh.points) box.grow(point);
-    }
-    if (box.is_empty()) continue;
-    const Vec3 size = box.max - box.min;
-    if (std::max(size.x, size.y) > kMostApart_m) {
-      Issue issue;
-      issue.code = Code::E163;
-      issue.sentence = fmt::format(
-          "the buildings lie over {:.0f} km: in one picture none would be seen; --grid gives each "
-          "its own panel",
-          std::max(size.x, size.y) / 1000);
-      throw InputError(std::move(issue));
-    }
-    for (Vec3& point : panel.mesh.points) point = point - box.min;
+void settle(PictureArguments& arguments) {
+  PictureOptions& options = arguments.options;
+  if (arguments.is_plan) options.view = PictureView::plan;
+  if (!arguments.facade.empty()) {
+    options.view = PictureView::facade;
+    options.azimuth_deg = side_deg(arguments.facade);
   }
-  return panels;
+  if (!arguments.size.empty())
+    std::tie(options.width_px, options.height_px) =
+        two_numbers(arguments.size, ',', "--size", "1200,900", kLeastPicture_px, kMostPicture_px);
+  if (!arguments.grid.empty()) {
+    const auto [columns, rows] = two_numbers(arguments.grid, 'x', "--grid", "4x3", 1, 100);
+    options.columns = columns;
+    arguments.most_panels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+  arguments.scales = scales_of(arguments.scale_texts, "--scales");
+  options.has_legend = !arguments.has_no_legend;
+}
+
+LabelledBuilding PictureExhibit::labelled(const Building& building,
+                                          const PipelineResult& result) const {
+  if (result.has_surfaces()) return annotate(building, result, rules_, options_);
+  LabelledBuilding bare;
+  bare.building = building.id;
+  return bare;
+}
+
+std::vector<Issue> PictureExhibit::add(const Document& document, const Building& building,
+                                       const PipelineResult& result) {
+  if (arguments_.most_panels && panels_.size() >= *arguments_.most_panels) {
+    ++left_out_;
+    return {};
+  }
+  const bool has_own_panel = arguments_.most_panels || !arguments_.scales.empty();
+  if (has_own_panel || panels_.empty())
+    panels_.push_back({.caption = has_own_panel ? building.id : std::string()});
+  append_building(panels_.back().mesh, building, labelled(building, result));
+  return arguments_.scales.empty() ? std::vector<Issue>{} : add_scales(document, building, result);
+}
+
+std::vector<Issue> PictureExhibit::add_scales(const Document& document, const Building& building,
+                                              const PipelineResult& result) {
+  std::vector<Issue> issues;
+  const int frame = static_cast<int>(panels_.size());
+  panels_.back().caption = drawn_caption(building.id, panels_.back().mesh);
+  panels_.back().frame = frame;
+  for (const double scale : arguments_.scales) {
+    GeneraliseOptions options;
+    static_cast<LabelOptions&>(options) = options_;
+    const Targets target = at_scale(scale);
+    GeneralisedBuilding drawn = generalise(document, building, result, rules_, target, options);
+    for (const Issue& issue : drawn.issues) {
+      const auto is_said = [&](const Issue& said) { return said.sentence == issue.sentence; };
+      if (std::ranges::none_of(issues, is_said)) issues.push_back(issue);  // once for all scales
+    }
+    OutputRecord output;
+    oriel::add(std::move(drawn), output);
+    PicturePanel panel{.frame = frame, .map_scale = scale};
+    for (const LabelledBuilding& one : output.buildings) append_building(panel.mesh, building, one);
+    panel.caption = output.buildings.empty() ? target.text() + ": not drawn"
+                                             : drawn_caption(target.text(), panel.mesh);
+    panels_.push_back(std::move(panel));
+  }
+  return issues;
+}
+
+void PictureExhibit::begin_after(const std::string& file) {
+  has_after_ = true;
+  panels_.front().caption = before_;
+  panels_.front().frame = 0;
+  panels_.push_back({.caption = std::filesystem::path(file).filename().string(), .frame = 0});
+}
+
+void PictureExhibit::add_after(const Building& building, const PipelineResult& result,
+                               const CarriedLabels* carried) {
+  append_building(
+      panels_.back().mesh, building,
+      carried == nullptr ? labelled(building, result) : labelled_as(building, *carried));
+}
+
+std::string PictureExhibit::made() {
+  if (left_out_ > 0)
+    run_log().info("--grid {} has no room for {}", arguments_.grid,
+                   counted(left_out_, "more building"));
+  const std::size_t of_one = arguments_.scales.size() + 1;
+  if (of_one > 1 && panels_.size() > of_one) arguments_.options.columns = static_cast<int>(of_one);
+  for (std::size_t i = 1; i < panels_.size() && has_after_; ++i)
+    panels_[i].marked = differences(panels_.front().mesh, panels_[i].mesh);
+  if (has_after_ && panels_.size() == 2) panels_.front().marked = panels_.back().marked;
+  Checked<std::string> drawn = picture(panels_, format_, arguments_.options);
+  if (!drawn.value) throw InputError(std::move(drawn.issues.front()));
+  return std::move(*drawn.value);
 }
 
 }  // namespace oriel::cli

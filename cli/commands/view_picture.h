@@ -1,7 +1,6 @@
 #pragma once
 
-#include "io/cityjson/carried_labels.h"
-#include "io/document.h"
+#include "cli/commands/exhibit.h"
 #include "oriel/label.h"
 #include "oriel/write.h"
 
@@ -12,7 +11,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace oriel::cli {
 
@@ -31,44 +31,43 @@ struct PictureArguments {
 /// Reads the format off the ending of a name; none for a page.
 std::optional<PictureFormat> picture_format(const std::string& path);
 
-/// Adds the options of pictures to a command.
-void add_picture_arguments(CLI::App& command, PictureArguments& arguments);
+/// Adds the options of pictures to a command, which has `--after`. Returns them.
+std::vector<CLI::Option*> add_picture_arguments(CLI::App& command, PictureArguments& arguments);
 
-/// Makes options of the texts. Throws CLI::ValidationError for what is none, and for options of a
-/// picture where a page is written.
-void settle(PictureArguments& arguments, bool is_picture, bool has_after);
+/// Makes options of the texts. Throws CLI::ValidationError for what is none.
+void settle(PictureArguments& arguments);
 
-/// Puts what a file says of a building's parts in the form in which it is written.
-LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carried);
-
-/// Gathers the buildings of a run as panels: one of all of them, with `--grid` one of each, with
-/// `--scales` one of each at each scale; with `--after` one more of each file.
-class PanelGatherer {
+/// A picture with a panel of all buildings, with `--grid` one of each, with `--scales` one of each
+/// at each scale, and with `--after` one more of each file.
+class PictureExhibit final : public Exhibit {
  public:
-  PanelGatherer(const PictureArguments& arguments, const RuleBase& rules, LabelOptions options)
-      : arguments_(arguments), rules_(rules), options_(std::move(options)) {}
+  /// `before` is the caption of the first panel, where there are others after it.
+  PictureExhibit(PictureArguments arguments, PictureFormat format, const RuleBase& rules,
+                 LabelOptions options, std::string before)
+      : arguments_(std::move(arguments)),
+        format_(format),
+        rules_(rules),
+        options_(std::move(options)),
+        before_(std::move(before)) {}
 
-  void add(const Document& document, const Building& building, const PipelineResult& result);
-
-  /// From here on buildings are what became of those before; they have a panel of that caption.
-  void begin_after(const std::string& before, const std::string& after);
-  /// Adds one of them, with the labels that its file has; null: those of `result`.
+  std::vector<Issue> add(const Document& document, const Building& building,
+                         const PipelineResult& result) override;
+  void begin_after(const std::string& file) override;
   void add_after(const Building& building, const PipelineResult& result,
-                 const CarriedLabels* carried);
-
-  /// Gives the panels, moved to the origin, with what differs from the first one marked in those
-  /// after it. Throws InputError E163 if buildings of one panel are so far apart that nothing would
-  /// be seen.
-  [[nodiscard]] std::vector<PicturePanel> panels() const;
-  /// How many panels there was no room for.
-  [[nodiscard]] std::size_t left_out() const { return left_out_; }
+                 const CarriedLabels* carried) override;
+  std::string made() override;
 
  private:
-  void add_scales(const Document& document, const Building& building, const PipelineResult& result);
+  [[nodiscard]] LabelledBuilding labelled(const Building& building,
+                                          const PipelineResult& result) const;
+  std::vector<Issue> add_scales(const Document& document, const Building& building,
+                                const PipelineResult& result);
 
-  const PictureArguments& arguments_;
+  PictureArguments arguments_;
+  PictureFormat format_;
   const RuleBase& rules_;
   LabelOptions options_;
+  std::string before_;
   std::vector<PicturePanel> panels_;
   std::size_t left_out_ = 0;
   bool has_after_ = false;

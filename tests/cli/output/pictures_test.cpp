@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 using namespace oriel::test;
 
@@ -17,6 +18,14 @@ std::size_t count_in(const std::string& text, const std::string& what) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
     ++count;
   return count;
+}
+
+/// A file of one building whose solid lacks a face.
+std::string without_a_face(const std::string& text) {
+  auto model = nlohmann::json::parse(text);
+  auto& shells = model["CityObjects"].begin().value()["geometry"][0]["boundaries"];
+  shells[0].erase(0);
+  return model.dump();
 }
 
 }  // namespace
@@ -41,6 +50,16 @@ TEST_SUITE("cli") {
     CHECK(count_in(svg, "</text>") > 3);
     CHECK(svg.find(">1:1000: 18 openings<") != std::string::npos);
     CHECK(svg.find(">1:5000: 0 openings<") != std::string::npos);
+  }
+
+  TEST_CASE("what cannot be drawn at a scale is said and set aside") {
+    const Folder folder;
+    const std::string open = folder.write("open.city.json", without_a_face(bytes_of(kHouse)));
+    const Outcome outcome =
+        run({"view", open, "--close", "none", "--scales", "1:5000", "-o", folder / "a.svg"});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("G404"));
+    CHECK(bytes_of(folder / "a.svg").find("1:5000: not drawn") != std::string::npos);
   }
 
   TEST_CASE("before and after stand beside each other and what differs is marked") {
