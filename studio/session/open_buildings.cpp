@@ -93,6 +93,8 @@ void OpenBuildings::open_samples() {
   }
   {
     const std::lock_guard lock(mutex_);
+    // Another request may have been quicker; the thread reads the list from then on.
+    if (!options_.files.empty()) throw RefusedRequest(409, "buildings are open already");
     options_.files = std::move(files);
     options_.truth = std::move(truth);
     files_left_ = options_.files.size();

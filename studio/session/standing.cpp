@@ -23,6 +23,11 @@ constexpr double kWide = 2.5;
 using MapCell = std::array<long long, 3>;
 using StandeeNumbers = std::vector<std::size_t>;
 
+/// The gap between units of which the widest is so wide.
+double gap_between(double widest_m) {
+  return std::max(kLeastGap_m, std::min(widest_m / 4, 5 * kLeastGap_m));
+}
+
 Vec3 middle_of(const Box& box) { return 0.5 * (box.min + box.max); }
 
 MapCell cell_of(const Box& box) {
@@ -110,6 +115,57 @@ Box box_of(std::span<const Standee> all, const StandeeNumbers& unit) {
   return box;
 }
 
+/// Stands units side by side in rows, from the back to the front and each from the left to the
+/// right. The first row begins at `begin`, in the picture. Returns the right end of the longest.
+double stand_in_rows(std::span<const Standee> all, const std::vector<StandeeNumbers>& units,
+                     Vec3 begin, std::vector<Standing>& made) {
+  std::vector<Box> boxes;
+  double area_m2 = 0, widest_m = 0, tallest_m = 0;
+  for (const StandeeNumbers& unit : units) {
+    const Box& box = boxes.emplace_back(box_of(all, unit));
+    const Vec3 size = box.max - box.min;
+    widest_m = std::max({widest_m, size.x, size.y});
+    tallest_m = std::max(tallest_m, size.z);
+    area_m2 += (size.x + kLeastGap_m) * (size.y + kLeastGap_m);
+  }
+  const double gap_m = gap_between(widest_m);
+  const double row_m = std::sqrt(kWide * area_m2);
+  double depth_m = 0, end_m = begin.x;
+  Vec3 next = begin + Vec3{gap_m, 0, 0};
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Vec3 size = boxes[i].max - boxes[i].min;
+    if (next.x > begin.x + gap_m && next.x + size.x > begin.x + gap_m + row_m) {
+      next = {begin.x + gap_m, next.y - depth_m - gap_m - tallest_m / 2, begin.z};
+      depth_m = 0;
+    }
+    for (const std::size_t number : units[i])
+      made[number].origin_m = boxes[i].min - (next - Vec3{0, size.y, 0});
+    next.x += size.x + gap_m;
+    end_m = std::max(end_m, next.x);
+    depth_m = std::max(depth_m, size.y);
+  }
+  return end_m;
+}
+
+/// Puts what is far away out of sight, `from_m` to the right, but no farther: floats would not tell
+/// apart the corners of a house that is far from the origin. What is of one cell stays together,
+/// unless it lies upon each other.
+void put_out_of_sight(std::span<const Standee> all, const StandeeNumbers& far, double from_m,
+                      Vec3 middle, std::vector<Standing>& made) {
+  for (const std::size_t i : far) {
+    const MapCell cell = cell_of(all[i].box_m);
+    const auto at = [&](std::size_t axis) { return static_cast<double>(cell[axis]) * kCell_m; };
+    made[i].origin_m = Vec3{at(0), at(1), at(2)} - Vec3{from_m, 0, 0};
+    made[i].away_m = length(middle_of(all[i].box_m) - middle);
+  }
+  double next_m = from_m + 2 * kCell_m;
+  for (const StandeeNumbers& unit : moving_units(all, far)) {
+    const Box box = box_of(all, unit);
+    for (const std::size_t i : unit) made[i].origin_m = box.min - Vec3{next_m, 0, 0};
+    next_m += box.max.x - box.min.x + kLeastGap_m;
+  }
+}
+
 }  // namespace
 
 Box box_of(const Building& building) {
@@ -138,52 +194,11 @@ std::vector<Standing> standings(std::span<const Standee> all) {
   }
   const Vec3 origin_m = rest.is_empty() ? whole.min : frames.min;
   for (Standing& standing : made) standing.origin_m = origin_m;
-
-  // Rows from the back to the front, each from the left to the right.
-  std::vector<Box> boxes;
-  double area_m2 = 0, widest_m = 0, tallest_m = 0;
-  for (const StandeeNumbers& unit : units) {
-    const Box& box = boxes.emplace_back(box_of(all, unit));
-    const Vec3 size = box.max - box.min;
-    widest_m = std::max({widest_m, size.x, size.y});
-    tallest_m = std::max(tallest_m, size.z);
-    area_m2 += (size.x + kLeastGap_m) * (size.y + kLeastGap_m);
-  }
-  const double gap_m = std::max(kLeastGap_m, std::min(widest_m / 4, 5 * kLeastGap_m));
-  const double row_m = std::sqrt(kWide * area_m2);
-  const double begin_m = rest.is_empty() ? 0 : rest.max.x - origin_m.x + gap_m;
-  const double ground_m = rest.is_empty() ? 0 : rest.min.z - origin_m.z;
-  double x = begin_m, y = 0, depth_m = 0, end_m = begin_m;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    const Vec3 size = boxes[i].max - boxes[i].min;
-    if (x > begin_m && x + size.x > begin_m + row_m) {
-      x = begin_m;
-      y -= depth_m + gap_m + tallest_m / 2;
-      depth_m = 0;
-    }
-    for (const std::size_t number : units[i])
-      made[number].origin_m = boxes[i].min - Vec3{x, y - size.y, ground_m};
-    x += size.x + gap_m;
-    end_m = std::max(end_m, x);
-    depth_m = std::max(depth_m, size.y);
-  }
-
-  // Floats would not tell apart the corners of a house that is far from the origin: what is far is
-  // put out of sight, but no farther; what is of one cell stays together, unless it lies upon each
-  // other.
-  double out_of_sight_m = std::max(end_m, whole.max.x - whole.min.x) + 4 * kCell_m;
-  for (const std::size_t i : far) {
-    const MapCell cell = cell_of(all[i].box_m);
-    const auto at = [&](std::size_t axis) { return static_cast<double>(cell[axis]) * kCell_m; };
-    made[i].origin_m = Vec3{at(0), at(1), at(2)} - Vec3{out_of_sight_m, 0, 0};
-    made[i].away_m = length(middle_of(all[i].box_m) - middle_of(whole));
-  }
-  for (const StandeeNumbers& unit : moving_units(all, far)) {
-    const Box box = box_of(all, unit);
-    for (const std::size_t i : unit)
-      made[i].origin_m = box.min - Vec3{out_of_sight_m + 2 * kCell_m, 0, 0};
-    out_of_sight_m += box.max.x - box.min.x + gap_m;
-  }
+  const Vec3 begin =
+      rest.is_empty() ? Vec3{} : Vec3{rest.max.x - origin_m.x, 0, rest.min.z - origin_m.z};
+  const double end_m = stand_in_rows(all, units, begin, made);
+  const double from_m = std::max(end_m, whole.max.x - whole.min.x) + 4 * kCell_m;
+  put_out_of_sight(all, far, from_m, middle_of(whole), made);
   return made;
 }
 
