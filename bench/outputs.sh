@@ -111,6 +111,8 @@ run house-explain-json explain "$house" f11yv --json
 run house-explain-surface explain "$house" --surface 3
 run house-explain-at explain "$house" --at 0.1,2.2,5
 run house-view view "$house" -o @/house.html
+for format in png svg pdf; do run "house-view-$format" view "$house" -o "@/house.$format" --scale-bar; done
+run house-view-scales view "$house" --scales 1:1000,1:2500,1:5000 --facade south --dark -o @/scales.svg
 run house-cfd generalise "$house" --profile cfd -o @/house.stl
 run house-cfd-obj generalise "$house" --profile cfd -o @/house.obj
 for profile in plateau:2.1 map lod:2.0 citygml:2; do
