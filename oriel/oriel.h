@@ -4,6 +4,10 @@
 /// each one function, and what is asked of the results: explain, score, validate. docs/library.md
 /// shows them at work.
 
+// From solids to half-edge meshes and back, and what is measured on meshes.
+#include "kernel/mesh/collapse.h"  // IWYU pragma: export
+#include "kernel/mesh/measures.h"  // IWYU pragma: export
+#include "kernel/mesh/mesh.h"      // IWYU pragma: export
 #include "oriel/corrections.h"     // IWYU pragma: export
 #include "oriel/energy.h"          // IWYU pragma: export
 #include "oriel/explain.h"         // IWYU pragma: export
@@ -11,10 +15,10 @@
 #include "oriel/interpret.h"       // IWYU pragma: export
 #include "oriel/label.h"           // IWYU pragma: export
 #include "oriel/learn.h"           // IWYU pragma: export
-#include "oriel/mesh.h"            // IWYU pragma: export
 #include "oriel/neighbours.h"      // IWYU pragma: export
 #include "oriel/options.h"         // IWYU pragma: export
 #include "oriel/paper_count.h"     // IWYU pragma: export
+#include "oriel/picture.h"         // IWYU pragma: export
 #include "oriel/read.h"            // IWYU pragma: export
 #include "oriel/repair.h"          // IWYU pragma: export
 #include "oriel/result.h"          // IWYU pragma: export

@@ -4,7 +4,6 @@
 #include "io/files/format.h"
 #include "io/files/output_file.h"
 #include "io/mesh/mesh_writer.h"
-#include "io/picture/picture.h"  // IWYU pragma: export
 #include "io/records/feature_records.h"
 #include "io/writer.h"
 #include "model/labelled_building.h"

@@ -2,6 +2,7 @@
 #include "cli/batch/inputs/input_files.h"
 #include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/feature_choice.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
@@ -212,61 +213,6 @@ ExitCode explain_buildings(const ExplainArguments& arguments, const RuleBase& ru
   return code;
 }
 
-/// A feature that was looked at, or that may be meant.
-struct FoundFeature {
-  std::string building;
-  std::string id;
-  std::string name;
-};
-
-bool are_of_one_building(const std::vector<FoundFeature>& features) {
-  return std::ranges::all_of(features, [&](const FoundFeature& feature) {
-    return feature.building == features.front().building;
-  });
-}
-
-/// "f11yv1hbtweapa (chimney 1 of roof slope north)", a few of them; of several buildings with the
-/// building.
-std::string some_of(const std::vector<FoundFeature>& features) {
-  constexpr std::size_t kMostShown = 5;
-  const bool is_one = are_of_one_building(features);
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMostShown, features.size()); ++i) {
-    const FoundFeature& feature = features[i];
-    text += fmt::format("{}{} ({}{})", i == 0 ? "" : ", ", feature.id, feature.name,
-                        is_one ? "" : " in building " + printable(feature.building));
-  }
-  return features.size() > kMostShown ? text + " ..." : text;
-}
-
-/// An id or its beginning: f with digits of base 32, where other texts are names.
-bool may_be_id(std::string_view text) {
-  return text.starts_with('f') &&
-         text.find_first_not_of("0123456789abcdefghjkmnpqrstvwxyz") == std::string_view::npos;
-}
-
-/// No feature is meant: those with the nearest names, or if an id seems to be meant the first ones.
-[[noreturn]] void refuse_unknown(const std::string& meant, const std::vector<FoundFeature>& all) {
-  constexpr std::size_t kMostNear = 3;
-  std::string which = "there are none";
-  if (!all.empty() && may_be_id(meant)) which = "there are " + some_of(all);
-  if (!all.empty() && !may_be_id(meant)) {
-    std::vector<std::string> names;
-    for (const FoundFeature& feature : all) names.push_back(feature.name);
-    which =
-        fmt::format("there are '{}'", fmt::join(nearest_names(names, meant, kMostNear), "', '"));
-  }
-  throw CLI::ValidationError("feature",
-                             fmt::format("no feature starts with '{}'; {}", meant, which));
-}
-
-[[noreturn]] void refuse_several(const std::string& meant, const std::vector<FoundFeature>& found) {
-  throw CLI::ValidationError(
-      "feature",
-      fmt::format("{} start with '{}'; it may be {}{}", counted(found.size(), "feature"), meant,
-                  some_of(found), are_of_one_building(found) ? "" : "; --id names one building"));
-}
-
 ExitCode work(ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
   settle_inputs(arguments, report);
@@ -281,33 +227,21 @@ ExitCode work(ExplainArguments& arguments) {
   const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
   std::optional<Explanation> first;
-  std::vector<FoundFeature> all, matches;
+  FeatureChoice choice(arguments.feature, "feature");
   const auto clear = [&] {
     first.reset();
-    all.clear();
-    matches.clear();
+    choice.clear();
   };
   const auto look_up = [&](const Document&, std::vector<PipelineResult>& lines) {
     for (const PipelineResult& line : lines) {
       if (!line.is_done()) continue;
-      const FeatureTable& table = line.description.table;
-      const std::vector<std::string> names = names_of_features(line);
-      const auto entry = [&](FeatureId id) {
-        return FoundFeature{table.building(), table.id(id), names[id.index()]};
-      };
-      for (std::size_t i = 0; i < table.rows(); ++i)
-        all.push_back(entry(FeatureId{static_cast<int>(i)}));
-      for (const FeatureId id : find_features(line, arguments.feature)) {
-        matches.push_back(entry(id));
-        if (!first) first = explain(line, *rules, id);
-      }
+      const auto found = choice.look(line);
+      if (found && !first) first = explain(line, *rules, *found);
     }
   };
   RecordVisitor visitor(look_up, clear);
   const ExitCode code = runner.run(visitor);
-  const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && all.empty());
-  if (matches.size() > 1) refuse_several(arguments.feature, matches);
-  if (matches.empty() && !has_said_why) refuse_unknown(arguments.feature, all);
+  choice.check(code);
   if (first) print_out(printer.text(*first), arguments.is_json);
   return graver(before, code);
 }
@@ -323,9 +257,7 @@ void add_explain(CLI::App& app, Action& action) {
   auto* feature = command->add_option("feature", arguments->feature,
                                       "Id or name of a feature, or the beginning of one (default: "
                                       "list the features of the building)");
-  feature->check([](const std::string& text) {
-    return text.empty() ? std::string("an empty text names no feature") : std::string();
-  });
+  feature->check(names_a_feature);
   auto* surface = command
                       ->add_option("--surface", arguments->surface,
                                    "Instead of a feature, explain which surface the polygon with "

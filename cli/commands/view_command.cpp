@@ -128,6 +128,7 @@ void check_names(const ViewArguments& arguments) {
   files.add(arguments);
   files.add_input("--rules", arguments.rules);
   for (const std::string& file : arguments.after) files.add_input("--after", file);
+  for (const std::string& file : arguments.picture.truth_files) files.add_input("--compare", file);
   files.add_output("-o", arguments.out);
   files.check();
 }
@@ -172,7 +173,9 @@ ExitCode work(ViewArguments& arguments) {
     check_picture_options(arguments);
   }
   const auto rules = load_rules(arguments, report);
-  if (!rules) return ExitCode::rules;
+  if (!rules || !settle_targets(arguments.picture, *rules, report)) return ExitCode::rules;
+  const ExitCode truth = read_truth(arguments.picture, report);
+  if (truth == ExitCode::input) return truth;
   find_neighbours(arguments, report);
   const auto exhibit = exhibit_for(arguments, format, *rules);
   std::vector<std::string> ids;
@@ -181,6 +184,7 @@ ExitCode work(ViewArguments& arguments) {
     if (code == ExitCode::input) return code;
     refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
   }
+  exhibit->check(code);
   for (const std::string& file : arguments.after) {
     std::vector<std::string> found;
     exhibit->begin_after(file);

@@ -1,6 +1,7 @@
 #include "cli/commands/view_picture.h"
 
 #include "cli/commands/options.h"
+#include "cli/commands/target_options.h"
 #include "cli/terminal/logging.h"
 #include "kernel/base/text/counted.h"
 #include "oriel/generalise.h"
@@ -8,8 +9,8 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -59,51 +60,6 @@ double side_deg(const std::string& text) {
                   text));
 }
 
-using FeatureName = std::pair<std::string, std::string>;
-
-/// By building and id of each part the box of its faces.
-std::map<FeatureName, Box> boxes_of(const MeshSource& mesh) {
-  std::map<FeatureName, Box> boxes;
-  for (const MeshPolygon& polygon : mesh.polygons) {
-    if (polygon.feature < 0) continue;
-    const MeshFeature& feature = mesh.features[static_cast<std::size_t>(polygon.feature)];
-    if (feature.id.empty()) continue;
-    for (const auto& ring : polygon.rings)
-      for (const int v : ring)
-        boxes[{feature.building, feature.id}].grow(mesh.points[static_cast<std::size_t>(v)]);
-  }
-  return boxes;
-}
-
-/// A part that has moved or grown by less looks the same.
-constexpr double kSamePlace_m = 0.01;
-
-bool is_same(const Box& p, const Box& q) {
-  return length(p.min - q.min) < kSamePlace_m && length(p.max - q.max) < kSamePlace_m;
-}
-
-/// What is in one of two panels only, or lies elsewhere in the other one.
-std::vector<FeatureName> differences(const MeshSource& before, const MeshSource& after) {
-  const auto old = boxes_of(before), now = boxes_of(after);
-  std::vector<FeatureName> names;
-  for (const auto& [name, box] : old)
-    if (const auto found = now.find(name); found == now.end() || !is_same(box, found->second))
-      names.push_back(name);
-  for (const auto& [name, box] : now)
-    if (!old.contains(name)) names.push_back(name);
-  std::ranges::sort(names);
-  return names;
-}
-
-/// "1:5000: 12 openings": windows and doors by the type of their surfaces, whatever a pack calls
-/// them.
-std::string drawn_caption(const std::string& target, const MeshSource& mesh) {
-  std::set<int> openings;
-  for (const MeshPolygon& polygon : mesh.polygons)
-    if (polygon.surface == "Window" || polygon.surface == "Door") openings.insert(polygon.feature);
-  return fmt::format("{}: {}", target, counted(openings.size(), "opening"));
-}
-
 /// Puts what a file says of a building's parts in the form in which it is written.
 LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carried) {
   LabelledBuilding made;
@@ -129,6 +85,19 @@ LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carr
     }
   }
   return made;
+}
+
+void exclude_each_other(const std::vector<CLI::Option*>& options) {
+  for (CLI::Option* one : options)
+    for (CLI::Option* other : options)
+      if (one != other) one->excludes(other);
+}
+
+/// A feature is seen from where it looks, a little from the side and from above.
+void look_at(const FeatureTable& table, FeatureId feature, PictureOptions& options) {
+  constexpr double kAside_deg = 25;
+  if (const auto azimuth = table.number(feature, Attribute::azimuth))
+    options.azimuth_deg = *azimuth + kAside_deg;
 }
 
 }  // namespace
@@ -173,9 +142,27 @@ std::vector<CLI::Option*> add_picture_arguments(CLI::App& command, PictureArgume
               .add_option("--scales", arguments.scale_texts,
                           "Give each scale a panel with the building as it is drawn for it")
               ->delimiter(','));
+  CLI::Option* levels = add(
+      command
+          .add_option("--to-lod", arguments.lods, "Likewise each level of detail, such as 2.0,1.2")
+          ->delimiter(','));
+  CLI::Option* explained = add(command.add_option(
+      "--explain", arguments.explained,
+      "Show a feature, by its id or name, with what it is part of, what is near it, and why it has "
+      "its label; seen from where it looks"));
+  explained->check(names_a_feature);
+  CLI::Option* compared = add(command
+                                  .add_option("--compare", arguments.truth_files,
+                                              "A truth file, as `score --truth` reads it: mark "
+                                              "what is right, wrong and missed (repeatable)")
+                                  ->type_name("FILE")
+                                  ->allow_extra_args(false));
+  // Scales and levels of detail may stand in one strip.
   CLI::Option* after = command.get_option("--after");
-  grid->excludes(scales)->excludes(after);
-  scales->excludes(after);
+  for (CLI::Option* strip : {scales, levels}) {
+    exclude_each_other({strip, grid, after, explained});
+    exclude_each_other({strip, after, explained, compared});
+  }
   add(command
           .add_option("--at-map-size", options.map_dpi,
                       "Draw each scale once more as large as on a map with DPI dots per inch, 300 "
@@ -205,55 +192,82 @@ void settle(PictureArguments& arguments) {
     options.columns = columns;
     arguments.most_panels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   }
-  arguments.scales = scales_of(arguments.scale_texts, "--scales");
+  arguments.looks_from_default =
+      options.view == PictureView::oblique && options.azimuth_deg == PictureOptions{}.azimuth_deg;
   options.has_legend = !arguments.has_no_legend;
 }
 
-LabelledBuilding PictureExhibit::labelled(const Building& building,
-                                          const PipelineResult& result) const {
-  if (result.has_surfaces()) return annotate(building, result, rules_, options_);
-  LabelledBuilding bare;
-  bare.building = building.id;
-  return bare;
+bool settle_targets(PictureArguments& arguments, const RuleBase& rules, Report& report) {
+  for (const double scale : scales_of(arguments.scale_texts, "--scales"))
+    arguments.targets.push_back(at_scale(scale));
+  if (arguments.lods.empty()) return true;
+  TargetArguments asked;
+  asked.lods = arguments.lods;
+  auto levels = targets_of(asked, rules, false, report);
+  if (!levels) return false;
+  for (Profile& profile : levels->profiles)
+    arguments.targets.emplace_back().profiles.push_back(std::move(profile));
+  return true;
+}
+
+ExitCode read_truth(PictureArguments& arguments, Report& report) {
+  ExitCode code = ExitCode::clean;
+  for (const std::string& path : arguments.truth_files) {
+    auto truths = read_truths(path);
+    report.add(truths.issues);
+    if (has_errors(truths.issues)) code = ExitCode::input;
+    if (!truths.value) continue;
+    for (GroundTruth& truth : *truths.value) arguments.truths[truth.building] = std::move(truth);
+  }
+  return code;
 }
 
 std::vector<Issue> PictureExhibit::add(const Document& document, const Building& building,
                                        const PipelineResult& result) {
-  if (arguments_.most_panels && panels_.size() >= *arguments_.most_panels) {
+  if (!arguments_.explained.empty()) {
+    add_explained(building, result);
+    return {};
+  }
+  // Pages of a PDF have room for all.
+  if (format_ != PictureFormat::pdf && arguments_.most_panels &&
+      panels_.size() >= *arguments_.most_panels) {
     ++left_out_;
     return {};
   }
-  const bool has_own_panel = arguments_.most_panels || !arguments_.scales.empty();
+  if (!arguments_.targets.empty()) {
+    std::vector<Issue> issues;
+    auto panels = target_panels(document, building, result, rules_, arguments_.targets, options_,
+                                static_cast<int>(panels_.size()), issues);
+    std::ranges::move(panels, std::back_inserter(panels_));
+    return issues;
+  }
+  const bool has_own_panel = arguments_.most_panels.has_value();
   if (has_own_panel || panels_.empty())
     panels_.push_back({.caption = has_own_panel ? building.id : std::string()});
-  append_building(panels_.back().mesh, building, labelled(building, result));
-  return arguments_.scales.empty() ? std::vector<Issue>{} : add_scales(document, building, result);
+  add_to(panels_.back(), building, result);
+  return {};
 }
 
-std::vector<Issue> PictureExhibit::add_scales(const Document& document, const Building& building,
-                                              const PipelineResult& result) {
-  std::vector<Issue> issues;
-  const int frame = static_cast<int>(panels_.size());
-  panels_.back().caption = drawn_caption(building.id, panels_.back().mesh);
-  panels_.back().frame = frame;
-  for (const double scale : arguments_.scales) {
-    GeneraliseOptions options;
-    static_cast<LabelOptions&>(options) = options_;
-    const Targets target = at_scale(scale);
-    GeneralisedBuilding drawn = generalise(document, building, result, rules_, target, options);
-    for (const Issue& issue : drawn.issues) {
-      const auto is_said = [&](const Issue& said) { return said.sentence == issue.sentence; };
-      if (std::ranges::none_of(issues, is_said)) issues.push_back(issue);  // once for all scales
-    }
-    OutputRecord output;
-    oriel::add(std::move(drawn), output);
-    PicturePanel panel{.frame = frame, .map_scale = scale};
-    for (const LabelledBuilding& one : output.buildings) append_building(panel.mesh, building, one);
-    panel.caption = output.buildings.empty() ? target.text() + ": not drawn"
-                                             : drawn_caption(target.text(), panel.mesh);
-    panels_.push_back(std::move(panel));
-  }
-  return issues;
+void PictureExhibit::add_to(PicturePanel& panel, const Building& building,
+                            const PipelineResult& result) {
+  const auto truth = arguments_.truths.find(building.id);
+  std::string sentence = "without truth";
+  if (truth != arguments_.truths.end())
+    sentence = append_compared(panel, building, result, rules_, options_, truth->second);
+  else
+    append_labelled(panel, building, result, rules_, options_);
+  if (arguments_.truth_files.empty()) return;
+  without_truth_ += truth == arguments_.truths.end() ? 1 : 0;
+  if (!panel.caption.empty()) panel.caption += '\n' + sentence;
+}
+
+void PictureExhibit::add_explained(const Building& building, const PipelineResult& result) {
+  if (!result.is_done()) return;
+  const auto feature = choice_.look(result);
+  if (!feature || !panels_.empty()) return;
+  panels_ = explained_panels(building, result, rules_, options_, *feature);
+  if (arguments_.looks_from_default)
+    look_at(result.description.table, *feature, arguments_.options);
 }
 
 void PictureExhibit::begin_after(const std::string& file) {
@@ -265,21 +279,33 @@ void PictureExhibit::begin_after(const std::string& file) {
 
 void PictureExhibit::add_after(const Building& building, const PipelineResult& result,
                                const CarriedLabels* carried) {
-  append_building(
-      panels_.back().mesh, building,
-      carried == nullptr ? labelled(building, result) : labelled_as(building, *carried));
+  PicturePanel& panel = panels_.back();
+  if (carried == nullptr)
+    append_labelled(panel, building, result, rules_, options_);
+  else
+    append_building(panel.mesh, building, labelled_as(building, *carried));
+}
+
+void PictureExhibit::check(ExitCode code) const {
+  if (!arguments_.explained.empty()) choice_.check(code);
 }
 
 std::string PictureExhibit::made() {
   if (left_out_ > 0)
     run_log().info("--grid {} has no room for {}", arguments_.grid,
                    counted(left_out_, "more building"));
-  const std::size_t of_one = arguments_.scales.size() + 1;
-  if (of_one > 1 && panels_.size() > of_one) arguments_.options.columns = static_cast<int>(of_one);
-  for (std::size_t i = 1; i < panels_.size() && has_after_; ++i)
-    panels_[i].marked = differences(panels_.front().mesh, panels_[i].mesh);
-  if (has_after_ && panels_.size() == 2) panels_.front().marked = panels_.back().marked;
-  Checked<std::string> drawn = picture(panels_, format_, arguments_.options);
+  if (without_truth_ > 0)
+    run_log().info("{} not in the truth: nothing is marked there",
+                   counted(without_truth_, "building is", "buildings are"));
+  PictureOptions& options = arguments_.options;
+  options.panels_of_page = arguments_.most_panels.value_or(0);
+  const std::size_t of_one = arguments_.targets.size() + 1;
+  if (of_one > 1 && panels_.size() > of_one) {
+    options.columns = static_cast<int>(of_one);
+    options.panels_of_page = of_one;
+  }
+  if (has_after_) mark_changes(panels_);
+  Checked<std::string> drawn = picture(panels_, format_, options);
   if (!drawn.value) throw InputError(std::move(drawn.issues.front()));
   return std::move(*drawn.value);
 }

@@ -35,6 +35,7 @@ namespace oriel::detail {
   X(cairo_surface_finish)                \
   X(cairo_surface_mark_dirty)            \
   X(cairo_surface_set_device_scale)      \
+  X(cairo_surface_show_page)             \
   X(cairo_surface_status)                \
   X(cairo_surface_write_to_png_stream)
 

@@ -89,25 +89,27 @@ std::uint32_t premultiplied(const std::array<std::uint8_t, 4>& pixel) {
 
 bool has_cairo() { return cairo_library() != nullptr; }
 
-std::string pdf_of(const PictureDrawing& drawing) {
+std::string pdf_of(std::span<const PictureDrawing> pages) {
   constexpr double kPoint_px = 72.0 / 96;
   std::string out;
-  const CairoSurface surface(
-      lib().cairo_pdf_surface_create_for_stream(append_bytes, &out, drawing.width_px * kPoint_px,
-                                                drawing.height_px * kPoint_px),
-      lib().cairo_surface_destroy);
+  const CairoSurface surface(lib().cairo_pdf_surface_create_for_stream(
+                                 append_bytes, &out, pages.front().width_px * kPoint_px,
+                                 pages.front().height_px * kPoint_px),
+                             lib().cairo_surface_destroy);
   // No time of day: the same bytes twice.
   lib().cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                        "2000-01-01T00:00:00Z");
   lib().cairo_surface_set_device_scale(surface.get(), kPoint_px, kPoint_px);
-  PictureDrawing whole = drawing;
-  if (drawing.ground) {
-    const double w = drawing.width_px, h = drawing.height_px;
-    whole.groups.insert(
-        whole.groups.begin(),
-        {.shapes = {{.rings = {{{0, 0}, {w, 0}, {w, h}, {0, h}}}, .fill = drawing.ground}}});
+  for (const PictureDrawing& page : pages) {
+    const double w = page.width_px, h = page.height_px;
+    PictureDrawing ground;
+    if (page.ground)
+      ground.groups = {
+          {.shapes = {{.rings = {{{0, 0}, {w, 0}, {w, h}, {0, h}}}, .fill = page.ground}}}};
+    draw_groups(surface.get(), ground);
+    draw_groups(surface.get(), page);
+    lib().cairo_surface_show_page(surface.get());
   }
-  draw_groups(surface.get(), whole);
   lib().cairo_surface_finish(surface.get());
   check(lib().cairo_surface_status(surface.get()));
   return out;

@@ -3,6 +3,7 @@
 #include "io/picture/raster.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,8 @@ struct PictureDrawing {
 std::string svg_of(const PictureDrawing& drawing);
 /// Says whether Cairo is installed, which pdf_of() and png_of() take.
 bool has_cairo();
-/// Writes a drawing as one page; a pixel is 1/96 inch.
-std::string pdf_of(const PictureDrawing& drawing);
+/// Writes drawings as pages of one size, that of the first; a pixel is 1/96 inch.
+std::string pdf_of(std::span<const PictureDrawing> pages);
 /// Draws the groups over the raster, which has the size of the drawing.
 std::string png_of(const PictureDrawing& drawing, const Raster& raster);
 

@@ -64,8 +64,8 @@ std::array<double, 3> nearness_of(const MeshSource& mesh, const MeshPolygon& pol
 }  // namespace
 
 std::vector<PictureFace> faces_of(const MeshSource& mesh, const Camera& camera,
-                                  const Placing& placing) {
-  const bool hides_backs = is_closed(mesh);
+                                  const Placing& placing, bool hides_backs) {
+  hides_backs = hides_backs || is_closed(mesh);
   std::vector<PictureFace> faces;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const MeshPolygon& polygon = mesh.polygons[i];

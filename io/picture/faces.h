@@ -3,14 +3,15 @@
 #include "io/mesh/label_colours.h"
 #include "io/picture/camera.h"
 
+#include <array>
+#include <optional>
 #include <vector>
 
 namespace oriel::detail {
 
 /// Faces that one place has at nearly the same depth lie in one plane.
 inline constexpr double kSameDepth_m = 1e-4;
-/// Of outlines, and of those of marked parts.
-inline constexpr Colour kLineColour{0x2b, 0x2a, 0x28}, kMarkColour{0xd0, 0x00, 0x50};
+inline constexpr Colour kLineColour{0x2b, 0x2a, 0x28};
 
 /// A polygon of a mesh as it lies in a picture.
 struct PictureFace {
@@ -30,6 +31,8 @@ struct PictureFace {
   Colour colour{};
   /// The same, lighter or darker by the face's slope.
   Colour shaded{};
+  /// That of the lines about its feature, if that is marked.
+  std::optional<Colour> mark{};
 
   [[nodiscard]] double nearness(double x, double y) const {
     return near[0] + near[1] * x + near[2] * y;
@@ -37,8 +40,9 @@ struct PictureFace {
 };
 
 /// Gives the faces of a mesh that can be seen from the camera if nothing hides them: those of
-/// closed bodies that look towards it, and both sides of others. In the order of the polygons.
+/// closed bodies that look towards it, and both sides of others, unless their backs are hidden,
+/// too. In the order of the polygons.
 std::vector<PictureFace> faces_of(const MeshSource& mesh, const Camera& camera,
-                                  const Placing& placing);
+                                  const Placing& placing, bool hides_backs = false);
 
 }  // namespace oriel::detail

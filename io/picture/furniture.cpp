@@ -16,12 +16,35 @@ constexpr double kText_px = 14, kLine_px = 24, kPatch_px = 14, kGap_px = 8, kBet
 constexpr double kBar = 0.3;
 
 struct LegendEntry {
-  std::string name, text;
+  std::string text;
+  Colour colour{};
+  bool is_mark = false;
 };
 
-/// Parts, the most frequent first, then surfaces.
-std::vector<LegendEntry> entries_of(const SeenClasses& classes) {
-  std::vector<std::pair<std::string, std::size_t>> order(classes.begin(), classes.end());
+/// Which colours people tell apart who do not see all of them: Okabe and Ito, Color Universal
+/// Design, 2008; a strong red for what one is to look at.
+constexpr Colour kRed{0xd0, 0x00, 0x50}, kBlue{0x00, 0x72, 0xb2}, kGreen{0x00, 0x9e, 0x73};
+
+struct MarkStyle {
+  const char* words;
+  Colour colour;
+};
+
+const MarkStyle& style_of(PictureMark mark) {
+  static constexpr std::array<MarkStyle, 7> kStyles = {{{"changed", kRed},
+                                                        {"right", kGreen},
+                                                        {"wrong", kRed},
+                                                        {"missed", kBlue},
+                                                        {"explained", kRed},
+                                                        {"what it is part of", kBlue},
+                                                        {"related", kGreen}}};
+  return kStyles.at(static_cast<std::size_t>(mark));
+}
+
+/// Parts, the most frequent first, then surfaces, then marks.
+std::vector<LegendEntry> entries_of(const LegendContents& contents) {
+  std::vector<std::pair<std::string, std::size_t>> order(contents.classes.begin(),
+                                                         contents.classes.end());
   std::ranges::stable_sort(order, [](const auto& p, const auto& q) {
     const bool p_is_part = is_label_of_part(p.first), q_is_part = is_label_of_part(q.first);
     return p_is_part != q_is_part ? p_is_part : p.second > q.second;
@@ -32,8 +55,12 @@ std::vector<LegendEntry> entries_of(const SeenClasses& classes) {
     std::ranges::replace(word, '_', ' ');
     if (word.starts_with("outer")) word.insert(5, " ");
     const bool has_number = count > 0 && is_label_of_part(name);
-    entries.push_back({name, has_number ? fmt::format("{} {}", word, count) : word});
+    entries.push_back(
+        {has_number ? fmt::format("{} {}", word, count) : word, colour_of_label(name)});
   }
+  for (const auto& [mark, count] : contents.marks)
+    entries.push_back(
+        {fmt::format("{} {}", style_of(mark).words, count), colour_of_mark(mark), true});
   return entries;
 }
 
@@ -58,22 +85,28 @@ PictureTheme theme_of(bool is_dark) {
   return {{0xff, 0xff, 0xff}, {0x22, 0x22, 0x22}, {0x77, 0x77, 0x77}};
 }
 
-double legend_height_px(const SeenClasses& classes, double width_px) {
-  const auto places = places_of(entries_of(classes), width_px);
+Colour colour_of_mark(PictureMark mark) { return style_of(mark).colour; }
+
+double legend_height_px(const LegendContents& contents, double width_px) {
+  const auto places = places_of(entries_of(contents), width_px);
   return places.empty() ? 0 : places.back().y + kLine_px;
 }
 
-PictureGroup legend(const SeenClasses& classes, const PictureBox& within,
+PictureGroup legend(const LegendContents& contents, const PictureBox& within,
                     const PictureTheme& theme) {
   PictureGroup group{.id = "legend"};
-  const auto entries = entries_of(classes);
+  const auto entries = entries_of(contents);
   const auto places = places_of(entries, within.width);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const double x = within.left + places[i].x, y = within.top + places[i].y;
     const double far = x + kPatch_px, low = y + kPatch_px;
-    group.shapes.push_back({.rings = {{{x, y}, {far, y}, {far, low}, {x, low}}},
-                            .fill = colour_of_label(entries[i].name),
-                            .line = theme.line});
+    PictureShape patch{.rings = {{{x, y}, {far, y}, {far, low}, {x, low}}}};
+    patch.line = entries[i].is_mark ? entries[i].colour : theme.line;
+    if (entries[i].is_mark)
+      patch.line_px = 3;
+    else
+      patch.fill = entries[i].colour;
+    group.shapes.push_back(std::move(patch));
     group.texts.push_back({.at = {far + kGap_px, low - 2},
                            .text = entries[i].text,
                            .size_px = kText_px,

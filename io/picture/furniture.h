@@ -22,12 +22,20 @@ PictureTheme theme_of(bool is_dark);
 /// no number is written.
 using SeenClasses = std::map<std::string, std::size_t>;
 
+/// What a legend explains: classes, and marks with the number of parts that have them.
+struct LegendContents {
+  SeenClasses classes;
+  std::map<PictureMark, std::size_t> marks;
+};
+
+Colour colour_of_mark(PictureMark mark);
+
 /// Makes a row of patches with names and numbers, in lines of `within`, from its top on: parts by
-/// number, then surfaces.
-PictureGroup legend(const SeenClasses& classes, const PictureBox& within,
+/// number, then surfaces, then marks.
+PictureGroup legend(const LegendContents& contents, const PictureBox& within,
                     const PictureTheme& theme);
 /// Measures what legend() takes of the height.
-double legend_height_px(const SeenClasses& classes, double width_px);
+double legend_height_px(const LegendContents& contents, double width_px);
 
 /// Makes a bar of a round number of metres (1, 2 or 5 times a power of ten) in the box's left lower
 /// corner.

@@ -11,6 +11,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -22,14 +24,13 @@ using namespace detail;
 
 /// Buildings that are farther apart cannot be seen in one picture: a town is.
 constexpr double kMostApart_m = 20'000;
-constexpr double kMargin_px = 12, kCaption_px = 26, kCaptionText_px = 14;
+constexpr double kMargin_px = 12, kCaption_px = 26, kCaptionText_px = 14, kCaptionLine_px = 18;
 
 /// A panel in its place, with what can be seen of it.
 struct PlacedPanel {
   const PicturePanel* panel = nullptr;
   Placing placing;
   std::vector<PictureFace> faces{};
-  std::set<int> marked{};
   /// It stands in the corner of another one: without caption and bar.
   bool is_inset = false;
 };
@@ -74,7 +75,7 @@ void share_frames(std::vector<PlacedPanel>& panels) {
 }
 
 /// Finds the first panel of the frame of each panel.
-std::vector<std::size_t> firsts_of_frames(const std::vector<PicturePanel>& panels) {
+std::vector<std::size_t> firsts_of_frames(std::span<const PicturePanel> panels) {
   std::map<int, std::size_t> first_of;
   std::vector<std::size_t> firsts;
   for (std::size_t i = 0; i < panels.size(); ++i)
@@ -84,7 +85,7 @@ std::vector<std::size_t> firsts_of_frames(const std::vector<PicturePanel>& panel
 }
 
 /// Measures what the frame of each panel shows, by the frame's first panel.
-std::vector<Box> boxes_of_frames(const std::vector<PicturePanel>& panels,
+std::vector<Box> boxes_of_frames(std::span<const PicturePanel> panels,
                                  const std::vector<std::size_t>& firsts) {
   std::vector<Box> boxes(panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i)
@@ -92,28 +93,52 @@ std::vector<Box> boxes_of_frames(const std::vector<PicturePanel>& panels,
   return boxes;
 }
 
-std::set<int> marked_of(const PicturePanel& panel) {
-  std::set<int> marked{};
-  for (std::size_t i = 0; i < panel.mesh.features.size(); ++i)
-    if (std::ranges::binary_search(
-            panel.marked, std::pair(panel.mesh.features[i].building, panel.mesh.features[i].id)))
-      marked.insert(static_cast<int>(i));
-  return marked;
+std::optional<PictureMark> mark_of(const PicturePanel& panel, int feature) {
+  if (feature < 0) return std::nullopt;
+  const MeshFeature& of = panel.mesh.features[at(feature)];
+  const auto found = panel.marks.find({of.building, of.id});
+  if (found == panel.marks.end()) return std::nullopt;
+  return found->second;
 }
 
-/// The classes of all panels. Features are counted if each is in one panel only, seen or not.
-SeenClasses classes_of(const std::vector<PicturePanel>& panels) {
+/// Pale, but not gone.
+Colour faded(const Colour& colour, const Colour& ground) {
+  constexpr double kKept = 0.3;
+  Colour out{};
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = static_cast<std::uint8_t>(
+        std::lround(kKept * colour[i] + (1 - kKept) * static_cast<double>(ground[i])));
+  return out;
+}
+
+void mark(PlacedPanel& placed, const PictureOptions& options) {
+  if (placed.panel->marks.empty()) return;
+  for (PictureFace& face : placed.faces) {
+    const auto mark = mark_of(*placed.panel, face.feature);
+    if (mark)
+      face.mark = colour_of_mark(*mark);
+    else if (placed.panel->fades_others)
+      face.shaded = faded(face.shaded, theme_of(options.is_dark).ground);
+  }
+}
+
+/// What is in all panels. Features are counted if each is in one panel only, seen or not; marks
+/// always, once each.
+LegendContents contents_of(std::span<const PicturePanel> panels) {
   const bool counts =
       std::ranges::all_of(panels, [](const PicturePanel& panel) { return panel.frame < 0; });
-  SeenClasses classes;
+  LegendContents contents;
+  std::set<std::pair<std::string, std::string>> marked;
   for (const PicturePanel& panel : panels) {
+    for (const auto& [name, mark] : panel.marks)
+      contents.marks[mark] += marked.insert(name).second ? 1 : 0;
     std::set<int> features;
     for (const MeshPolygon& polygon : panel.mesh.polygons) features.insert(polygon.feature);
     for (const int feature : features)
-      classes[feature < 0 ? std::string() : panel.mesh.features[at(feature)].label] +=
+      contents.classes[feature < 0 ? std::string() : panel.mesh.features[at(feature)].label] +=
           counts ? 1 : 0;
   }
-  return classes;
+  return contents;
 }
 
 /// The parts of a panel that are seen.
@@ -123,12 +148,11 @@ void append_parts(const PlacedPanel& placed, std::vector<PictureGroup>& groups) 
   for (std::size_t f = 0; f < placed.faces.size(); ++f) {
     if (visible[f].empty()) continue;
     const PictureFace& face = placed.faces[f];
-    const bool is_marked = placed.marked.contains(face.feature);
     PictureGroup& part = parts[face.feature];
     part.shapes.push_back({.rings = visible[f],
                            .fill = face.shaded,
-                           .line = is_marked ? kMarkColour : kLineColour,
-                           .line_px = is_marked ? 2.0 : 0.6});
+                           .line = face.mark.value_or(kLineColour),
+                           .line_px = face.mark ? 2.0 : 0.6});
   }
   for (auto& [feature, part] : parts) {
     if (feature >= 0) {
@@ -140,16 +164,46 @@ void append_parts(const PlacedPanel& placed, std::vector<PictureGroup>& groups) 
   }
 }
 
-/// Writes a caption below its panel; a long one in small letters.
+/// Breaks a caption between words where a line would be longer than its panel is wide.
+std::vector<std::string> lines_of(std::string_view caption, double width_px) {
+  const auto letters =
+      static_cast<std::size_t>(std::max(1.0, width_px / kCaptionText_px / kLetter));
+  std::vector<std::string> lines;
+  while (!caption.empty()) {
+    std::size_t end = std::min(caption.find('\n'), caption.size());
+    if (end > letters)
+      if (const std::size_t space = caption.rfind(' ', letters);
+          space != std::string_view::npos && space > 0)
+        end = space;
+    lines.push_back(printable(caption.substr(0, end)));
+    caption.remove_prefix(std::min(end + 1, caption.size()));
+  }
+  return lines;
+}
+
+/// Measures what the longest caption takes below a panel of that width.
+double caption_height_px(std::span<const PicturePanel> panels, double width_px) {
+  std::size_t most = 0;
+  for (const PicturePanel& panel : panels)
+    most = std::max(most, lines_of(panel.caption, width_px).size());
+  return most == 0 ? 0 : kCaption_px + static_cast<double>(most - 1) * kCaptionLine_px;
+}
+
+/// Writes a caption below its panel; a long word in small letters.
 PictureGroup caption(const PlacedPanel& placed, const PictureTheme& theme) {
   const PictureBox& box = placed.placing.box;
-  const std::string text = printable(placed.panel->caption);
-  const double fitting_px = box.width / (kLetter * static_cast<double>(text.size()));
-  return {.texts = {{.at = {box.left + box.width / 2, box.top + box.height + kCaptionText_px + 4},
-                     .text = text,
-                     .size_px = std::min(kCaptionText_px, fitting_px),
-                     .anchor = TextAnchor::middle,
-                     .colour = theme.ink}}};
+  PictureGroup group;
+  double y = box.top + box.height + kCaptionText_px + 4;
+  for (const std::string& text : lines_of(placed.panel->caption, box.width)) {
+    const double fitting_px = box.width / (kLetter * static_cast<double>(text.size()));
+    group.texts.push_back({.at = {box.left + box.width / 2, y},
+                           .text = text,
+                           .size_px = std::min(kCaptionText_px, fitting_px),
+                           .anchor = TextAnchor::middle,
+                           .colour = theme.ink});
+    y += kCaptionLine_px;
+  }
+  return group;
 }
 
 Issue picture_issue(Code code, std::string sentence) {
@@ -173,8 +227,34 @@ std::optional<PlacedPanel> inset_of(const PlacedPanel& placed, double dpi) {
   return inset;
 }
 
+/// Moves panels to the right of what will stand in their corners, where that would lie over one of
+/// them.
+void make_room_for_insets(std::vector<PlacedPanel>& placed, const std::vector<Camera>& cameras,
+                          double dpi) {
+  double room_px = 0;
+  bool is_needed = false;
+  for (const PlacedPanel& panel : placed) {
+    if (panel.panel->map_scale <= 0) continue;
+    const auto inset = inset_of(panel, dpi);
+    if (!inset) continue;
+    const Placing& placing = panel.placing;
+    const double beside_px = (placing.box.width - placing.size_m[0] * placing.pixels_per_m) / 2;
+    is_needed = is_needed || inset->placing.box.width > beside_px;
+    room_px = std::max(room_px, inset->placing.box.width);
+  }
+  if (!is_needed) return;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    PictureBox box = placed[i].placing.box;
+    box.left += room_px;
+    box.width = std::max(1.0, box.width - room_px);
+    placed[i].placing =
+        placing_in(placed[i].panel->mesh, cameras[i], box, placed[i].placing.origin);
+  }
+  share_frames(placed);
+}
+
 /// The panels in their places; none where a facade that was asked for is not there.
-Checked<std::vector<PlacedPanel>> placed_panels(const std::vector<PicturePanel>& panels,
+Checked<std::vector<PlacedPanel>> placed_panels(std::span<const PicturePanel> panels,
                                                 const std::vector<PictureBox>& boxes,
                                                 const PictureOptions& options) {
   std::vector<PlacedPanel> placed;
@@ -197,19 +277,23 @@ Checked<std::vector<PlacedPanel>> placed_panels(const std::vector<PicturePanel>&
                                                      "clockwise from north",
                                                      options.azimuth_deg))}};
     cameras.push_back(*camera);
-    placed.push_back({.panel = &panels[i],
-                      .placing = placing_in(panels[i].mesh, *camera, boxes[i], origin),
-                      .marked = marked_of(panels[i])});
+    placed.push_back(
+        {.panel = &panels[i], .placing = placing_in(panels[i].mesh, *camera, boxes[i], origin)});
   }
   share_frames(placed);
+  if (options.map_dpi > 0) make_room_for_insets(placed, cameras, options.map_dpi);
   for (std::size_t i = 0; i < panels.size() && options.map_dpi > 0; ++i)
     if (panels[i].map_scale > 0)
       if (auto inset = inset_of(placed[i], options.map_dpi)) {
+        inset->placing.box.left = boxes[i].left;
         placed.push_back(std::move(*inset));
         cameras.push_back(cameras[i]);
       }
-  for (std::size_t i = 0; i < placed.size(); ++i)
-    placed[i].faces = faces_of(placed[i].panel->mesh, cameras[i], placed[i].placing);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    placed[i].faces = faces_of(placed[i].panel->mesh, cameras[i], placed[i].placing,
+                               placed[i].panel->hides_backs);
+    mark(placed[i], options);
+  }
   return {std::move(placed), {}};
 }
 
@@ -221,6 +305,45 @@ Raster blank(const PictureOptions& options, Colour ground) {
   return raster;
 }
 
+/// A page: its groups, and for PNG what lies below them.
+struct PicturePage {
+  PictureDrawing drawing;
+  Raster raster{};
+};
+
+Checked<PicturePage> page_of(std::span<const PicturePanel> panels, PictureFormat format,
+                             const PictureOptions& options) {
+  const PictureTheme theme = theme_of(options.is_dark);
+  const LegendContents contents = options.has_legend ? contents_of(panels) : LegendContents{};
+  PictureBox within{kMargin_px, kMargin_px, std::max(1.0, options.width_px - 2 * kMargin_px),
+                    std::max(1.0, options.height_px - 2 * kMargin_px)};
+  const double legend_px = std::min(legend_height_px(contents, within.width), within.height / 2);
+  within.height -= legend_px;
+  // Panels are as large on the last page as on those before.
+  const std::size_t room = std::max(panels.size(), options.panels_of_page);
+  const double width_px = within.width / static_cast<double>(columns_for(room, options));
+  const auto boxes = boxes_for(room, within, options, caption_height_px(panels, width_px));
+  auto placed = placed_panels(panels, boxes, options);
+  if (!placed.value) return {std::nullopt, std::move(placed.issues)};
+
+  PicturePage page{.drawing = {.width_px = options.width_px, .height_px = options.height_px}};
+  if (!options.is_transparent) page.drawing.ground = theme.ground;
+  if (format == PictureFormat::png) page.raster = blank(options, theme.ground);
+  for (const PlacedPanel& panel : *placed.value) {
+    if (format == PictureFormat::png)
+      draw_faces(panel.faces, panel.placing.box, page.raster);
+    else
+      append_parts(panel, page.drawing.groups);
+    if (panel.is_inset) continue;
+    if (!panel.panel->caption.empty()) page.drawing.groups.push_back(caption(panel, theme));
+    if (options.has_scale_bar) page.drawing.groups.push_back(scale_bar(panel.placing, theme));
+  }
+  if (legend_px > 0)
+    page.drawing.groups.push_back(legend(
+        contents, {within.left, within.top + within.height + 4, within.width, legend_px}, theme));
+  return {std::move(page), {}};
+}
+
 }  // namespace
 
 Checked<std::string> picture(const std::vector<PicturePanel>& panels, PictureFormat format,
@@ -230,43 +353,20 @@ Checked<std::string> picture(const std::vector<PicturePanel>& panels, PictureFor
             {picture_issue(Code::E171,
                            "pictures as PNG and PDF take Cairo, which is not installed "
                            "(libcairo2); SVG does without")}};
-  const PictureTheme theme = theme_of(options.is_dark);
-  const SeenClasses classes = options.has_legend ? classes_of(panels) : SeenClasses{};
-  PictureBox within{kMargin_px, kMargin_px, std::max(1.0, options.width_px - 2 * kMargin_px),
-                    std::max(1.0, options.height_px - 2 * kMargin_px)};
-  const double legend_px = std::min(legend_height_px(classes, within.width), within.height / 2);
-  within.height -= legend_px;
-  const bool has_captions =
-      std::ranges::any_of(panels, [](const PicturePanel& panel) { return !panel.caption.empty(); });
-  const auto boxes = boxes_for(panels.size(), within, options, has_captions ? kCaption_px : 0.0);
-  auto placed = placed_panels(panels, boxes, options);
-  if (!placed.value) return {std::nullopt, std::move(placed.issues)};
-
-  PictureDrawing drawing{.width_px = options.width_px, .height_px = options.height_px};
-  if (!options.is_transparent) drawing.ground = theme.ground;
-  Raster raster;
-  if (format == PictureFormat::png) raster = blank(options, theme.ground);
-  for (const PlacedPanel& panel : *placed.value) {
-    if (format == PictureFormat::png)
-      draw_faces(panel.faces, panel.marked, panel.placing.box, raster);
-    else
-      append_parts(panel, drawing.groups);
-    if (panel.is_inset) continue;
-    if (!panel.panel->caption.empty()) drawing.groups.push_back(caption(panel, theme));
-    if (options.has_scale_bar) drawing.groups.push_back(scale_bar(panel.placing, theme));
+  const bool has_pages = format == PictureFormat::pdf && options.panels_of_page > 0;
+  const std::size_t of_page =
+      std::max<std::size_t>(1, has_pages ? options.panels_of_page : panels.size());
+  PictureOptions of_each = options;
+  of_each.panels_of_page = has_pages ? of_page : 0;
+  std::vector<PictureDrawing> pages;
+  for (std::size_t from = 0; from == 0 || from < panels.size(); from += of_page) {
+    const auto some = std::span(panels).subspan(from, std::min(of_page, panels.size() - from));
+    auto page = page_of(some, format, of_each);
+    if (!page.value) return {std::nullopt, std::move(page.issues)};
+    if (format == PictureFormat::png) return {png_of(page.value->drawing, page.value->raster), {}};
+    pages.push_back(std::move(page.value->drawing));
   }
-  if (legend_px > 0)
-    drawing.groups.push_back(legend(
-        classes, {within.left, within.top + within.height + 4, within.width, legend_px}, theme));
-  switch (format) {
-    case PictureFormat::png:
-      return {png_of(drawing, raster), {}};
-    case PictureFormat::svg:
-      return {svg_of(drawing), {}};
-    case PictureFormat::pdf:
-      return {pdf_of(drawing), {}};
-  }
-  return {};
+  return {format == PictureFormat::svg ? svg_of(pages.front()) : pdf_of(pages), {}};
 }
 
 }  // namespace oriel

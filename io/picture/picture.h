@@ -4,6 +4,8 @@
 #include "kernel/mesh/mesh.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +23,17 @@ enum class PictureView {
   facade    ///< level, straight at the facade of one side
 };
 
+/// Why a part is marked: by lines of a colour that the legend explains.
+enum class PictureMark : std::uint8_t {
+  changed,    ///< it is not what it was
+  right,      ///< it has the label that it should have
+  wrong,      ///< it has a label that it should not have
+  missed,     ///< it lacks the label that it should have
+  explained,  ///< it is what the picture is about
+  host,       ///< that lies in it or stands on it
+  related     ///< that is related to it
+};
+
 /// Limits of PictureOptions::width_px and height_px.
 inline constexpr int kLeastPicture_px = 16, kMostPicture_px = 16'384;
 
@@ -35,6 +48,8 @@ struct PictureOptions {
   int height_px = 900;
   /// The panels of a row; 0: as many as make the panels squarest.
   int columns = 0;
+  /// How many panels a page of a PDF has; 0: one page has all, as other formats always do.
+  std::size_t panels_of_page = 0;
   bool is_dark = false;
   bool is_transparent = false;
   bool has_legend = true;
@@ -48,15 +63,20 @@ struct PictureOptions {
 struct PicturePanel {
   /// In metres; features with the ids and labels that are shown.
   MeshSource mesh{};
-  /// Stands below the panel; empty: nothing.
+  /// Stands below the panel, line by line; empty: nothing.
   std::string caption{};
   /// Panels of one number are seen from one place at one scale, that of the largest; -1: each by
   /// itself.
   int frame = -1;
   /// The denominator of the scale that it is drawn for; 0: none.
   double map_scale = 0;
-  /// Building and id of features that are marked, as they changed; sorted.
-  std::vector<std::pair<std::string, std::string>> marked{};
+  /// By building and id.
+  std::map<std::pair<std::string, std::string>, PictureMark> marks{};
+  /// What is not marked is pale.
+  bool fades_others = false;
+  /// Its faces are some of a closed body's: from behind they are not seen, as those of a closed
+  /// mesh never are.
+  bool hides_backs = false;
 };
 
 /// Draws panels side by side. Returns the bytes of the picture, the same whatever the machine, but

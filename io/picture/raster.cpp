@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 
 namespace oriel::detail {
@@ -21,6 +22,14 @@ constexpr double kSamePlane = 0.999;
 constexpr double kStep_m = 0.02;
 
 enum class LineKind : std::uint8_t { none, edge, silhouette, mark };
+
+/// A line at a sample: of two the one whose kind is greater is seen.
+struct SampleLine {
+  LineKind kind = LineKind::none;
+  Colour colour = kLineColour;
+
+  friend auto operator<=>(const SampleLine&, const SampleLine&) = default;
+};
 
 /// Half the width of a line, in samples.
 int reach_of(LineKind kind) {
@@ -52,20 +61,18 @@ class Band {
   }
 
   /// What separates a sample from the one right of it or below.
-  [[nodiscard]] LineKind between(int x, int y, int other_x, int other_y,
-                                 const std::set<int>& marked) const {
+  [[nodiscard]] SampleLine between(int x, int y, int other_x, int other_y) const {
     const int p = face_at(x, y), q = face_at(other_x, other_y);
-    if (p == q) return LineKind::none;
-    if (p < 0 || q < 0) return LineKind::silhouette;
+    if (p == q) return {};
+    if (p < 0 || q < 0) return {LineKind::silhouette};
     const PictureFace &a = faces_[at(p)], &b = faces_[at(q)];
-    if (a.feature != b.feature && (marked.contains(a.feature) || marked.contains(b.feature)))
-      return LineKind::mark;
+    if (a.feature != b.feature && (a.mark || b.mark))
+      return {LineKind::mark, a.mark ? *a.mark : *b.mark};
     const bool is_one_plane = dot(a.normal, b.normal) > kSamePlane &&
                               std::abs(nearness_[cell(x, y)] - nearness_[cell(other_x, other_y)]) <
                                   kStep_m + std::abs(a.near[1]) + std::abs(a.near[2]);
-    if (is_one_plane && (a.feature == b.feature || (!a.is_part && !b.is_part)))
-      return LineKind::none;
-    return LineKind::edge;
+    if (is_one_plane && (a.feature == b.feature || (!a.is_part && !b.is_part))) return {};
+    return {LineKind::edge};
   }
 
  private:
@@ -122,32 +129,32 @@ class Band {
 /// The lines of a band, sample by sample.
 class Lines {
  public:
-  Lines(const Band& band, const std::set<int>& marked, int width, int top, int rows)
-      : width_(width), top_(top), rows_(rows), kinds_(at(width) * at(rows), LineKind::none) {
+  Lines(const Band& band, int width, int top, int rows)
+      : width_(width), top_(top), rows_(rows), lines_(at(width) * at(rows)) {
     for (int y = top - kReach; y < top + rows + kReach; ++y)
       for (int x = 0; x < width; ++x) {
-        put(x, y, band.between(x, y, x + 1, y, marked));
-        put(x, y, band.between(x, y, x, y + 1, marked));
-        if (x == 0) put(0, y, band.between(-1, y, 0, y, marked));
+        put(x, y, band.between(x, y, x + 1, y));
+        put(x, y, band.between(x, y, x, y + 1));
+        if (x == 0) put(0, y, band.between(-1, y, 0, y));
       }
   }
 
-  [[nodiscard]] LineKind at_sample(int x, int y) const {
-    return kinds_[at(y - top_) * at(width_) + at(x)];
+  [[nodiscard]] const SampleLine& at_sample(int x, int y) const {
+    return lines_[at(y - top_) * at(width_) + at(x)];
   }
 
  private:
-  void put(int x, int y, LineKind kind) {
-    const int reach = reach_of(kind);
+  void put(int x, int y, const SampleLine& line) {
+    const int reach = reach_of(line.kind);
     for (int v = std::max(top_, y - reach); v <= std::min(top_ + rows_ - 1, y + reach); ++v)
       for (int u = std::max(0, x - reach); u <= std::min(width_ - 1, x + reach); ++u) {
-        LineKind& there = kinds_[at(v - top_) * at(width_) + at(u)];
-        there = std::max(there, kind);
+        SampleLine& there = lines_[at(v - top_) * at(width_) + at(u)];
+        there = std::max(there, line);
       }
   }
 
   int width_, top_, rows_;
-  std::vector<LineKind> kinds_;
+  std::vector<SampleLine> lines_;
 };
 
 /// The mean of a pixel's samples over what the raster has there.
@@ -157,12 +164,10 @@ void mix_pixel(std::span<const PictureFace> faces, const Band& band, const Lines
   int seen = 0;
   for (int v = y * kFiner; v < (y + 1) * kFiner; ++v)
     for (int u = x * kFiner; u < (x + 1) * kFiner; ++u) {
-      const LineKind line = lines.at_sample(u, v);
+      const SampleLine& line = lines.at_sample(u, v);
       const int face = band.face_at(u, v);
-      if (line == LineKind::none && face < 0) continue;
-      const Colour& colour = line == LineKind::mark   ? kMarkColour
-                             : line != LineKind::none ? kLineColour
-                                                      : faces[at(face)].shaded;
+      if (line.kind == LineKind::none && face < 0) continue;
+      const Colour& colour = line.kind == LineKind::none ? faces[at(face)].shaded : line.colour;
       for (std::size_t i = 0; i < 3; ++i) sum[i] += colour[i];
       ++seen;
     }
@@ -177,8 +182,7 @@ void mix_pixel(std::span<const PictureFace> faces, const Band& band, const Lines
 
 }  // namespace
 
-void draw_faces(std::span<const PictureFace> faces, const std::set<int>& marked_features,
-                const PictureBox& within, Raster& raster) {
+void draw_faces(std::span<const PictureFace> faces, const PictureBox& within, Raster& raster) {
   const int left = std::max(0, static_cast<int>(within.left));
   const int right = std::min(raster.width, static_cast<int>(within.left + within.width));
   const int end = std::min(raster.height, static_cast<int>(within.top + within.height));
@@ -186,7 +190,7 @@ void draw_faces(std::span<const PictureFace> faces, const std::set<int>& marked_
     const int rows = std::min(kBand_px, end - top);
     const Band band(faces, raster.width * kFiner, top * kFiner - kReach,
                     rows * kFiner + 2 * kReach);
-    const Lines lines(band, marked_features, raster.width * kFiner, top * kFiner, rows * kFiner);
+    const Lines lines(band, raster.width * kFiner, top * kFiner, rows * kFiner);
     for (int y = top; y < top + rows; ++y)
       for (int x = left; x < right; ++x)
         mix_pixel(faces, band, lines, x, y, raster.pixels[at(y) * at(raster.width) + at(x)]);

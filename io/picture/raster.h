@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <set>
 #include <span>
 #include <vector>
 
@@ -22,8 +21,7 @@ struct Raster {
 /// silhouette and about marked parts thicker ones.
 ///
 /// Memory is by the width of the raster: it is drawn in bands.
-void draw_faces(std::span<const PictureFace> faces, const std::set<int>& marked_features,
-                const PictureBox& within, Raster& raster);
+void draw_faces(std::span<const PictureFace> faces, const PictureBox& within, Raster& raster);
 
 /// Counts the pixels of each face that can be seen, before lines are drawn: of a raster of that
 /// size, each pixel of kFiner × kFiner samples, as a share of them. For tests of visible_rings().

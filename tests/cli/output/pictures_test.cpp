@@ -1,5 +1,6 @@
 #include "tests/cli/command.h"
 
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@ using namespace oriel::test;
 namespace {
 
 const std::string kHouse = sample("house");
+const std::string kTruth = kHouse.substr(0, kHouse.find(".stripped")) + ".truth.json";
 
 /// How often a text occurs in another one.
 std::size_t count_in(const std::string& text, const std::string& what) {
@@ -77,6 +79,64 @@ TEST_SUITE("cli") {
         run({"view", kHouse, "--after", folder / "same.city.json", "-o", folder / "b.svg"}).exit ==
         0);
     CHECK(count_in(bytes_of(folder / "b.svg"), mark) == 0);
+  }
+
+  TEST_CASE("a picture of levels of detail says what was done for each") {
+    const Folder folder;
+    REQUIRE(run({"view", kHouse, "--to-lod", "2.0,1.0", "-o", folder / "a.svg"}).exit == 0);
+    const std::string svg = bytes_of(folder / "a.svg");
+    for (const char* text : {">LoD 2.0: 0 openings<", ">LoD 1.0: 0 openings<", ">omit "}) {
+      CAPTURE(text);
+      CHECK(svg.find(text) != std::string::npos);
+    }
+  }
+
+  TEST_CASE("a picture of a feature shows it in its building and says why it is so called") {
+    const Folder folder;
+    REQUIRE(run({"view", kHouse, "--explain", "canopy 1", "-o", folder / "a.svg"}).exit == 0);
+    const std::string svg = bytes_of(folder / "a.svg");
+    for (const char* text : {">explained 1<", ">canopy: a ", "canopy.above_door"}) {
+      CAPTURE(text);
+      CHECK(svg.find(text) != std::string::npos);
+    }
+    CHECK(count_in(svg, "class=\"canopy\"") == 2);
+    CHECK(run({"view", kHouse, "--explain", "window 1", "-o", folder / "b.svg"}).exit == 2);
+    const Outcome unknown = run({"view", kHouse, "--explain", "cupola", "-o", folder / "b.svg"});
+    CHECK(unknown.exit == 2);
+    CHECK(unknown.says("no feature starts with 'cupola'"));
+    CHECK(!std::filesystem::exists(folder / "b.svg"));
+  }
+
+  TEST_CASE("a picture marks what is right and wrong and missed by a truth") {
+    const Folder folder;
+    auto truth = nlohmann::json::parse(bytes_of(kTruth));
+    REQUIRE(
+        run({"view", kHouse, "--compare", kTruth, "--grid", "1x1", "-o", folder / "a.svg"}).exit ==
+        0);
+    CHECK(bytes_of(folder / "a.svg").find(">24 right, 0 wrong, 0 missed<") != std::string::npos);
+    // This truth calls dormers bays and chimneys vents.
+    for (auto& object : truth["objects"]) {
+      if (object["class"] == "dormer") object["class"] = "bay";
+      if (object["class"] == "chimney") object["class"] = "vent";
+    }
+    const std::string other = folder.write("other.truth.json", truth.dump());
+    REQUIRE(
+        run({"view", kHouse, "--compare", other, "--grid", "1x1", "-o", folder / "b.svg"}).exit ==
+        0);
+    CHECK(bytes_of(folder / "b.svg").find(">21 right, 3 wrong, 0 missed<") != std::string::npos);
+    const Outcome none = run({"view", sample("hip"), "--compare", other, "-o", folder / "c.svg"});
+    CHECK(none.exit == 0);
+    CHECK(none.says("not in the truth"));
+    CHECK(run({"view", kHouse, "--compare", kHouse, "-o", folder / "c.svg"}).exit == 5);
+  }
+
+  TEST_CASE("a PDF has a page for each sheet so that no building is left out") {
+    const Folder folder;
+    const Outcome outcome = run(
+        {"view", kHouse, sample("row"), sample("hip"), "--grid", "2x1", "-o", folder / "a.pdf"});
+    CHECK(outcome.exit == 0);
+    CHECK(!outcome.says("no room"));
+    CHECK(count_in(bytes_of(folder / "a.pdf"), "/Type /Page %") == 2);
   }
 
   TEST_CASE("a sheet has a panel for each building and says for how many there is no room") {

@@ -50,6 +50,13 @@ std::string drawn(const MeshSource& mesh, PictureFormat format, const PictureOpt
   return *made.value;
 }
 
+std::size_t occurrences(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++count;
+  return count;
+}
+
 /// How often each element of an XML text occurs; none if it is not well-formed.
 std::map<std::string, int> elements_in(const std::string& text) {
   std::map<std::string, int> counts;
@@ -134,6 +141,74 @@ TEST_SUITE("io") {
       CHECK(at != std::string::npos);
       CHECK(made.value->find(id, at + 1) == std::string::npos);
     }
+  }
+
+  TEST_CASE("a mark has the colour of its reason and the legend says which") {
+    PicturePanel panel{.mesh = boxes(), .marks = {{{"b", "chimney1"}, PictureMark::missed}}};
+    const auto count_of = [&](PictureMark mark, const char* colour) {
+      panel.marks.begin()->second = mark;
+      const std::string svg = *picture({panel}, PictureFormat::svg, {.elevation_deg = 45}).value;
+      CHECK((svg.find(">changed 1<") != std::string::npos) == (mark == PictureMark::changed));
+      return occurrences(svg, std::string("stroke=\"") + colour);
+    };
+    CHECK(count_of(PictureMark::missed, "#0072b2") > 1);
+    CHECK(count_of(PictureMark::right, "#009e73") > 1);
+    CHECK(count_of(PictureMark::changed, "#d00050") > 1);
+    CHECK(count_of(PictureMark::missed, "#d00050") == 0);
+    // Pixels of the mark are there as well.
+    panel.marks.begin()->second = PictureMark::missed;
+    CHECK(*picture({panel}, PictureFormat::png).value != drawn(boxes(), PictureFormat::png, {}));
+  }
+
+  TEST_CASE("what is not marked is pale where a panel says so") {
+    PicturePanel panel{.mesh = boxes(), .marks = {{{"b", "chimney1"}, PictureMark::explained}}};
+    const std::string plain = *picture({panel}, PictureFormat::svg).value;
+    panel.fades_others = true;
+    const std::string faded = *picture({panel}, PictureFormat::svg).value;
+    const auto group = [](const std::string& svg, const std::string& id) {
+      const std::size_t from = svg.find("id=\"" + id + "\"");
+      return svg.substr(from, svg.find("</g>", from) - from);
+    };
+    CHECK(group(plain, "b_chimney1") == group(faded, "b_chimney1"));
+    CHECK(group(plain, "b_garage3") != group(faded, "b_garage3"));
+  }
+
+  TEST_CASE("backs of a part of a closed body are not seen where a panel says so") {
+    PicturePanel panel{.mesh = boxes()};
+    panel.mesh.polygons.resize(5);  // of the first box: open, as of a part alone
+    const auto shapes = [&] {
+      return occurrences(*picture({panel}, PictureFormat::svg, {.has_legend = false}).value,
+                         "<path");
+    };
+    const std::size_t both_sides = shapes();
+    panel.hides_backs = true;
+    CHECK(shapes() < both_sides);
+  }
+
+  TEST_CASE("a PDF has as many pages as its panels take and other formats one picture") {
+    std::vector<PicturePanel> panels(5, {.mesh = boxes(), .caption = "house"});
+    PictureOptions options{.width_px = 300, .height_px = 200};
+    const auto pages = [&] {
+      const std::string pdf = *picture(panels, PictureFormat::pdf, options).value;
+      return occurrences(pdf, "/Type /Page %");
+    };
+    CHECK(pages() == 1);
+    for (const auto& [of_page, count] :
+         {std::pair<std::size_t, std::size_t>(1, 5), {2, 3}, {5, 1}, {9, 1}}) {
+      options.panels_of_page = of_page;
+      CAPTURE(of_page);
+      CHECK(pages() == count);
+    }
+    options.panels_of_page = 2;
+    CHECK(occurrences(*picture(panels, PictureFormat::svg, options).value, ">house<") == 5);
+  }
+
+  TEST_CASE("a long caption is broken between words") {
+    const PicturePanel panel{.mesh = boxes(), .caption = "one two three four five six\nseven"};
+    const std::string svg =
+        *picture({panel}, PictureFormat::svg, {.width_px = 150, .has_legend = false}).value;
+    CHECK(occurrences(svg, "<text") == 3);
+    CHECK(svg.find(">seven<") != std::string::npos);
   }
 
   TEST_CASE("a picture is the same where the coordinates are those of a country") {
