@@ -17,11 +17,18 @@ namespace {
 /// Facets that share an edge have one number, the smallest of theirs.
 std::vector<int> connected(const Solid& solid) {
   DisjointSets sets(solid.facets.size());
-  std::map<std::pair<int, int>, int> facet_at;
+  struct EdgeOfFacet {
+    int low, high, facet;
+    auto operator<=>(const EdgeOfFacet&) const = default;
+  };
+  std::vector<EdgeOfFacet> edges;
   for_each_edge(solid, [&](int facet, int p, int q) {
-    const auto [first, is_new] = facet_at.emplace(std::minmax(p, q), facet);
-    if (!is_new) sets.unite(first->second, facet);
+    edges.push_back({std::min(p, q), std::max(p, q), facet});
   });
+  std::ranges::sort(edges);
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i].low == edges[i - 1].low && edges[i].high == edges[i - 1].high)
+      sets.unite(edges[i - 1].facet, edges[i].facet);
   std::vector<int> number(solid.facets.size());
   for (int i = 0; i < std::ssize(number); ++i) number[at(i)] = sets.find(i);
   return number;
@@ -51,13 +58,6 @@ std::vector<ShellPiece> pieces_of(const Solid& solid) {
 }
 
 }  // namespace
-
-void for_each_edge(const Solid& solid, const std::function<void(int, int, int)>& visit) {
-  for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
-    for (const Loop& loop : solid.facets[f.index()].loops)
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        visit(f.value, loop[i], loop[(i + 1) % loop.size()]);
-}
 
 Plane plane_of(std::span<const Vertex> vertices, const Loop& outer) {
   const Vec3 first = vertices[at(outer[0])].point;

@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -37,10 +36,10 @@ std::ptrdiff_t slivers_of(const Solid& solid, double weld_m) {
 
 /// Edges at which the solid touches itself.
 std::ptrdiff_t doubled_edges_of(const Solid& solid) {
-  std::set<std::pair<int, int>> edges;
-  std::ptrdiff_t doubled = 0;
-  for_each_edge(solid, [&](int, int from, int to) { doubled += !edges.emplace(from, to).second; });
-  return doubled;
+  std::vector<std::pair<int, int>> edges;
+  for_each_edge(solid, [&](int, int from, int to) { edges.emplace_back(from, to); });
+  std::ranges::sort(edges);
+  return edges.end() - std::unique(edges.begin(), edges.end());
 }
 
 /// Makes a solid of the faces around the one cell of a complex.
@@ -83,13 +82,13 @@ class SolidOfFaces {
   void drop_straight_vertices() {
     for (std::size_t before = 0, now = corners(); before != now; now = corners()) {
       before = now;
-      std::map<int, int> uses;
+      std::vector<int> uses(complex_.vertices().size());
       for (const Facet& facet : out_.facets)
         for (const Loop& loop : facet.loops)
-          for (const int v : loop) ++uses[v];
+          for (const int v : loop) ++uses[at(v)];
       for (Facet& facet : out_.facets) {
         for (Loop& loop : facet.loops) {
-          std::erase_if(loop, [&](int v) { return uses[v] == 2; });
+          std::erase_if(loop, [&](int v) { return uses[at(v)] == 2; });
           drop_spikes(loop);
         }
         std::erase_if(facet.loops, [](const Loop& loop) { return loop.size() < 3; });
@@ -123,13 +122,16 @@ class SolidOfFaces {
   }
 
   void number_vertices() {
-    std::map<int, int> numbers;
+    std::vector<int> numbers(complex_.vertices().size(), -1);
     for (Facet& facet : out_.facets)
       for (Loop& loop : facet.loops)
         for (int& v : loop) {
-          const auto [entry, is_new] = numbers.emplace(v, static_cast<int>(numbers.size()));
-          if (is_new) out_.vertices.push_back(complex_.vertices()[at(v)]);
-          v = entry->second;
+          int& number = numbers[at(v)];
+          if (number < 0) {
+            number = static_cast<int>(out_.vertices.size());
+            out_.vertices.push_back(complex_.vertices()[at(v)]);
+          }
+          v = number;
         }
   }
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -16,8 +16,17 @@ namespace oriel::detail {
 
 namespace {
 
-/// Two planes, the smaller id first: the line in which they meet.
-using Line = std::pair<PlaneId, PlaneId>;
+/// Two numbers in one, in this order.
+std::uint64_t both_of(int first, int second) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(first)) << 32U |
+         static_cast<std::uint32_t>(second);
+}
+
+/// The line in which two planes meet.
+std::uint64_t line_of(PlaneId p, PlaneId q) {
+  const auto [low, high] = std::minmax(p, q);
+  return both_of(low.value, high.value);
+}
 
 class Outlines {
  public:
@@ -41,7 +50,7 @@ class Outlines {
   }
 
  private:
-  using SheetByEdge = std::map<std::pair<int, int>, PlaneId>;
+  using SheetByEdge = std::unordered_map<std::uint64_t, PlaneId>;
 
   [[nodiscard]] PlaneId sheet_of(const Facet& facet) const { return sheets_[facet.plane.index()]; }
 
@@ -53,14 +62,16 @@ class Outlines {
 
   /// Which vertices lie on which lines.
   void find_incidences() {
-    std::map<int, std::set<PlaneId>> sheets_at;
+    std::vector<std::pair<int, PlaneId>> sheets;  // by vertex
     for (const auto& facets : bodies_)
       for (const Facet& facet : facets)
         for (const Loop& loop : facet.loops)
-          for (const int v : loop) sheets_at[v].insert(sheet_of(facet));
-    for (const auto& [v, sheets] : sheets_at)
-      for (auto p = sheets.begin(); p != sheets.end(); ++p)
-        for (auto q = std::next(p); q != sheets.end(); ++q) on_line_[{*p, *q}].push_back(v);
+          for (const int v : loop) sheets.emplace_back(v, sheet_of(facet));
+    std::ranges::sort(sheets);
+    sheets.erase(std::unique(sheets.begin(), sheets.end()), sheets.end());
+    for (auto p = sheets.begin(); p != sheets.end(); ++p)
+      for (auto q = std::next(p); q != sheets.end() && q->first == p->first; ++q)
+        on_line_[line_of(p->second, q->second)].push_back(p->first);
   }
 
   [[nodiscard]] SheetByEdge facets_by_edge(const std::vector<Facet>& facets) const {
@@ -68,7 +79,7 @@ class Outlines {
     for (const Facet& facet : facets)
       for (const Loop& loop : facet.loops)
         for (std::size_t i = 0; i < loop.size(); ++i)
-          across[{loop[i], loop[(i + 1) % loop.size()]}] = sheet_of(facet);
+          across[both_of(loop[i], loop[(i + 1) % loop.size()])] = sheet_of(facet);
     return across;
   }
 
@@ -77,9 +88,9 @@ class Outlines {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int from = loop[i], to = loop[(i + 1) % loop.size()];
       whole.push_back(from);
-      const auto other = across.find({to, from});
+      const auto other = across.find(both_of(to, from));
       if (other == across.end()) continue;
-      const auto on = on_line_.find(std::minmax(sheet, other->second));
+      const auto on = on_line_.find(line_of(sheet, other->second));
       if (on == on_line_.end()) continue;
       const auto between = vertices_between(from, to, on->second);
       whole.insert(whole.end(), between.begin(), between.end());
@@ -106,7 +117,7 @@ class Outlines {
   std::span<const PlaneId> sheets_;
   const VertexPool& pool_;
   std::vector<std::vector<Facet>> bodies_;
-  std::map<Line, std::vector<int>> on_line_;
+  std::unordered_map<std::uint64_t, std::vector<int>> on_line_;
 };
 
 }  // namespace
@@ -190,14 +201,15 @@ class Vertices {
 
 void conform(std::vector<Face>& faces, std::span<const Vertex> vertices, double near_m) {
   const Vertices in_use(faces, vertices);
-  std::map<std::pair<int, int>, std::vector<int>> on_edge;
+  std::unordered_map<std::uint64_t, std::vector<int>> on_edge;
   for (Face& face : faces)
     for (Loop& loop : face.loops) {
       Loop whole;
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const int from = loop[i], to = loop[(i + 1) % loop.size()];
-        const auto [entry, is_new] = on_edge.try_emplace(std::minmax(from, to));
-        if (is_new) entry->second = in_use.on(entry->first.first, entry->first.second, near_m);
+        const auto [low, high] = std::minmax(from, to);
+        const auto [entry, is_new] = on_edge.try_emplace(both_of(low, high));
+        if (is_new) entry->second = in_use.on(low, high, near_m);
         const std::vector<int>& on = entry->second;
         whole.push_back(from);
         if (from < to)

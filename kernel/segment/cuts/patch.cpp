@@ -81,6 +81,11 @@ class FlushPatchFinder {
                     other = body_.side_of_edge(body_.twin(bump.after));
     if (!can_cut(one) || !can_cut(other)) return;
     if (planes_.class_of(one >> 1) == planes_.class_of(other >> 1)) return;
+    const PlaneSide flush = body_.facet(f).side;
+    if (std::ranges::any_of(options_.sides, [&](PlaneSide side) {
+          return side != one && side != other && side != flush;
+        }))
+      return;
     if (!do_meet(before, bump.after, planes_.normal(body_.facet(f).side))) return;
     if (!find_component(f, bump, {one, other})) return;
     if (auto patch = cap_component(flat_, false, component_)) patches_.push_back(std::move(*patch));
@@ -193,11 +198,12 @@ class PatchFinder {
     for (const GrownId n : grown_.ids()) {
       if (world_.work.is_used_up()) break;
       start_with(n);
-      if (!find_sides(alone, std::max(most, kMostLimits))) continue;
+      // What is widened has no other sides.
+      if (!find_sides(alone, std::max(most, kMostLimits)) || !has_sides_asked(alone)) continue;
       offer(alone);
       for_fewer_sides(n, alone, [&](unsigned limits) {
         widen(n, limits);
-        if (is_met_first() && find_sides(widened, most)) offer(widened);
+        if (is_met_first() && find_sides(widened, most) && has_sides_asked(widened)) offer(widened);
       });
     }
     if (options_.is_natural_order && most > 1) add_flush_patches(flat_, options_, patches_);
@@ -475,6 +481,12 @@ class PatchFinder {
     find_facets(component);
     if (auto patch = cap_component(flat_, is_hole_, component))
       patches_.push_back(std::move(*patch));
+  }
+
+  [[nodiscard]] bool has_sides_asked(const Component& component) const {
+    return std::ranges::all_of(options_.sides, [&](PlaneSide side) {
+      return std::ranges::find(component.sides, side) != component.sides.end();
+    });
   }
 
   [[nodiscard]] bool can_be_capped(const Component& component) const {

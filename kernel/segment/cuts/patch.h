@@ -9,7 +9,7 @@ namespace oriel::detail {
 
 struct PatchOptions {
   /// Planes that are no split planes of the body: those of the cut that made it.
-  std::vector<int> own_planes;
+  std::vector<int> own_planes{};
   int max_order = 4;
   /// The ground (-1: none): of protrusions with two planes, the rim may leave out a part of it, see
   /// CutCap::is_taken.
@@ -20,6 +20,8 @@ struct PatchOptions {
   /// Patches with more new area than so many times the old one are not asked for; most of them are
   /// left out.
   double most_value = std::numeric_limits<double>::infinity();
+  /// Patches that lack a cap on one of these sides are not asked for; most of them are left out.
+  std::vector<PlaneSide> sides{};
 };
 
 /// The natural patches of holes, or of protrusions, that two to four planes can cap (paper, section

@@ -238,12 +238,12 @@ class FeatureRemover {
   std::optional<std::string> remove_by_patch(const Feature& f, std::vector<PlaneSide> sides) {
     std::ranges::sort(sides);
     for (Boundary& body : bodies_)
-      for (const detail::Patch& patch : find_patches(
-               body, f.sense == Sense::hole,
-               {{},
-                4,
-                detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg),
-                f.sense == Sense::protrusion})) {
+      for (const detail::Patch& patch :
+           find_patches(body, f.sense == Sense::hole,
+                        {.free_side = detail::ground_side(solid_, world_.planes,
+                                                          options_.tolerances.coplanar_deg),
+                        .is_natural_order = f.sense == Sense::protrusion,
+                        .sides = sides})) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
         return take(body, patch.caps, f);
       }
