@@ -9,7 +9,6 @@
 #include "kernel/geometry/directions.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <utility>
 
@@ -55,10 +54,17 @@ bool stays_as_it_was(const Segmentation& segmentation, FeatureId id, const Carri
   return true;
 }
 
-/// The number of the step by which something breaks: without steps nothing does, with all of them
-/// something does.
-std::size_t bisect(std::size_t count, const std::function<bool(std::size_t first)>& breaks) {
-  std::size_t good = 0, bad = count;
+/// The number of the step by which something breaks: with the first `good` ones nothing does, with
+/// all of them something does. What breaks after others is mostly near them: after some good steps
+/// it is looked for in strides that grow.
+template <class Breaks>
+std::size_t first_to_break(std::size_t good, std::size_t count, const Breaks& breaks) {
+  std::size_t bad = count;
+  for (std::size_t stride = 1; good > 0 && good + stride < bad; stride *= 2)
+    if (breaks(good + stride))
+      bad = good + stride;
+    else
+      good += stride;
   while (bad - good > 1) {
     const std::size_t middle = good + (bad - good) / 2;
     (breaks(middle) ? bad : good) = middle;
@@ -171,11 +177,14 @@ class InvariantEnforcer {
 
   /// The first step by which an invariant is violated; the reason is what it violates.
   void undo_violating(Violation reason) {
-    const std::size_t step = bisect(plan_.steps.size(), [&](std::size_t first) {
+    if (sound_undone_ != undone_.size()) sound_ = 0;
+    const std::size_t step = first_to_break(sound_, plan_.steps.size(), [&](std::size_t first) {
       auto broken = violation_by(carry_out_first(first).solid);
       if (broken) reason = std::move(*broken);
       return broken.has_value();
     });
+    sound_ = step;
+    sound_undone_ = undone_.size() + 1;
     const FeatureId id = plan_.steps[step].feature;
     if (undone_.add_unfollowed(id, reason.sentence)) return;
     undone_.add({id, reason.code, std::move(reason.sentence)});
@@ -296,6 +305,8 @@ class InvariantEnforcer {
   Measures before_;
   SolidValidator validator_;
   UndoneSteps undone_;
+  /// By so many of the first steps nothing is violated, while so many are undone.
+  std::size_t sound_ = 0, sound_undone_ = 0;
 };
 
 }  // namespace

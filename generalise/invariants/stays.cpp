@@ -10,8 +10,6 @@
 
 namespace oriel::detail {
 
-namespace {
-
 std::set<int> polygons_named(const Solid& solid) {
   std::set<int> polygons;
   for (const Facet& facet : solid.facets)
@@ -19,11 +17,13 @@ std::set<int> polygons_named(const Solid& solid) {
   return polygons;
 }
 
-}  // namespace
-
 bool loses_what_stays(const Solid& before, const Solid& left, const Segmentation& segmentation,
                       const std::vector<FeatureId>& gone) {
-  const std::set<int> had = polygons_named(before), has = polygons_named(left);
+  return loses_what_stays(polygons_named(before), polygons_named(left), segmentation, gone);
+}
+
+bool loses_what_stays(const std::set<int>& had, const std::set<int>& has,
+                      const Segmentation& segmentation, const std::vector<FeatureId>& gone) {
   const auto is_named = [](const std::set<int>& polygons, const std::vector<int>& its) {
     return std::ranges::any_of(its, [&](int polygon) { return polygons.contains(polygon); });
   };

@@ -5,6 +5,7 @@
 #include "model/vec3.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ namespace oriel::detail {
 /// along. What has the polygons of features that are gone was made of them, and is not asked for.
 bool loses_what_stays(const Solid& before, const Solid& left, const Segmentation& segmentation,
                       const std::vector<FeatureId>& gone);
+/// The same of the polygons that are named.
+bool loses_what_stays(const std::set<int>& before, const std::set<int>& left,
+                      const Segmentation& segmentation, const std::vector<FeatureId>& gone);
+/// The input polygons that the facets of a solid name.
+std::set<int> polygons_named(const Solid& solid);
 
 /// The features that are not among the `removed` (ascending).
 class StayingFeatures {

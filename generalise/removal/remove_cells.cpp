@@ -2,6 +2,7 @@
 #include "generalise/removal/removal.h"
 #include "generalise/removal/take_out.h"
 #include "kernel/base/indexed_vector.h"
+#include "kernel/geometry/disjoint_sets.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -20,7 +21,9 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace oriel {
 
@@ -38,7 +41,9 @@ constexpr std::array kCoarser{1.0, 4.0, 10.0};
 constexpr double kFootprint = 0.0005;
 
 /// What cutting cells off and judging what is left takes, for each corner of the solid.
-constexpr std::int64_t kStepsPerAttempt = 64;
+constexpr std::int64_t kStepsPerAttempt = 32;
+/// What it takes to see that cells would not hang together.
+constexpr std::int64_t kStepsPerLook = 1;
 
 using Ids = std::vector<FeatureId>;
 
@@ -90,6 +95,58 @@ class PolygonsAround {
   std::map<std::array<std::int64_t, 3>, std::vector<FacetId>> facets_along_;  ///< by direction
 };
 
+/// Which cells of a complex hang together, by faces or edges.
+class CellContacts {
+ public:
+  CellContacts(const CellComplex& complex, std::size_t cells) : cells_(cells) {
+    std::vector<std::tuple<int, int, CellId>> at_edge;
+    for (const Face& face : complex.faces())
+      for (const Loop& loop : face.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const auto [low, high] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+          for (const CellId cell : {face.behind, face.front})
+            if (cell.is_valid()) at_edge.emplace_back(low, high, cell);
+        }
+    std::ranges::sort(at_edge);
+    at_edge.erase(std::unique(at_edge.begin(), at_edge.end()), at_edge.end());
+    for (std::size_t i = 0; i < at_edge.size();) {
+      const auto [low, high, first] = at_edge[i];
+      std::vector<CellId> there;
+      for (; i < at_edge.size() &&
+             std::tuple(std::get<0>(at_edge[i]), std::get<1>(at_edge[i])) == std::tuple(low, high);
+           ++i)
+        there.push_back(std::get<2>(at_edge[i]));
+      touching_.push_back(std::move(there));
+    }
+    std::ranges::sort(touching_);
+    touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
+  }
+
+  /// In how many pieces some cells are; none of them counts as several.
+  [[nodiscard]] int pieces_of(const std::vector<CellId>& some) const {
+    std::vector<char> is_there(cells_, 0), is_met(cells_, 0);
+    for (const CellId cell : some) is_there[cell.index()] = 1;
+    DisjointSets sets(cells_);
+    for (const std::vector<CellId>& touching : touching_) {
+      CellId before;
+      for (const CellId cell : touching) {
+        if (is_there[cell.index()] == 0) continue;
+        is_met[cell.index()] = 1;
+        if (before.is_valid()) sets.unite(before.value, cell.value);
+        before = cell;
+      }
+    }
+    int pieces = 0;
+    for (std::size_t i = 0; i < cells_; ++i)
+      pieces += is_met[i] != 0 && sets.find(static_cast<int>(i)) == static_cast<int>(i) ? 1 : 0;
+    return pieces;
+  }
+
+ private:
+  std::size_t cells_;
+  std::vector<std::vector<CellId>> touching_;  ///< at one edge, each set of them once
+};
+
 class CellRemover {
  public:
   CellRemover(const Solid& solid, const Segmentation& segmentation, const Remainder& remainder,
@@ -103,7 +160,8 @@ class CellRemover {
         complex_(validator.complex ? validator.complex
                                    : std::make_shared<std::optional<CellComplex>>()),
         footprint_m2_(measures_of(remainder.solid).footprint_m2),
-        polygons_around_(solid, options.tolerances.weld_m) {
+        polygons_around_(solid, options.tolerances.weld_m),
+        named_(detail::polygons_named(solid)) {
     for (const FeatureId id : remainder.removed)
       if (!is_carried(id, remainder.removed)) gone_.push_back(id);
   }
@@ -169,12 +227,19 @@ class CellRemover {
 
   /// Keeps what comes of it if it is a closed solid.
   bool attempt(const Ids& more, Way way) {
-    if (!may_go_on(validator_.work, base_, kStepsPerAttempt)) return false;
+    if (!may_go_on(validator_.work, base_, kStepsPerLook)) return false;
     Ids all = gone_;
     all.insert(all.end(), more.begin(), more.end());
     std::ranges::sort(all);
     std::optional<Refusal> fault;
-    auto made = way == Way::in_planes ? taken_out(all, fault) : without(all, fault);
+    std::optional<Solid> made;
+    if (falls_apart(all))
+      fault = apart();
+    else if (more.size() > 1 && is_hopeless(all))
+      return false;
+    else if (may_go_on(validator_.work, base_, kStepsPerAttempt))
+      made = way == Way::in_planes ? taken_out(all, fault) : without(all, fault);
+    if (fault && fault->code == Code::G411) has_fallen_apart_ = true;
     if (!made) {
       if (fault && more.size() == 1) faults_.insert_or_assign(more[0], *fault);
       return false;
@@ -186,6 +251,25 @@ class CellRemover {
     }
     best_ = std::move(made);
     return true;
+  }
+
+  static Refusal apart() { return {{}, "the building would fall apart", Code::G411}; }
+
+  /// The cells tell so, which are asked once something has fallen apart: mostly it is not alone.
+  [[nodiscard]] bool falls_apart(const Ids& all) {
+    if (!has_fallen_apart_) return false;
+    if (!contacts_) {
+      if (!complex()) return false;
+      contacts_.emplace(*complex(), segmentation_.cells.size());
+      pieces_ = contacts_->pieces_of(cells_without(fates_of({})));
+    }
+    return contacts_->pieces_of(cells_without(fates_of(all))) > pieces_;
+  }
+
+  /// Nothing if the work does not last.
+  std::optional<CellComplex>& complex() {
+    if (!*complex_) *complex_ = cell_complex(segmentation_, options_.tolerances, work_);
+    return *complex_;
   }
 
   /// What becomes of each feature's cells: material, air, or (nothing) what they were.
@@ -236,6 +320,7 @@ class CellRemover {
   struct Draft {
     Building shell;  ///< polygon i is of face i
     std::vector<Face> faces;
+    std::vector<FaceId> numbers{};  ///< of the faces, in the complex
     double volume_m3 = 0;
     double area_m2 = 0;
   };
@@ -250,6 +335,7 @@ class CellRemover {
     };
     for (const BoundaryFace& part : complex.boundary(cells)) {
       Face& face = draft.faces.emplace_back(complex.face(part.face));
+      draft.numbers.push_back(part.face);
       Polygon polygon;
       for (Loop& ring : face.loops) {
         for (int& v : ring) v = number(v);
@@ -274,13 +360,14 @@ class CellRemover {
     auto made = detail::take_out(base_, segmentation_, leaves, options_.tolerances, work_);
     if (!made) return std::nullopt;
     const Ids gone = with_what_sits_on(segmentation_, all);
-    const std::set<int> lost = polygons_of(gone);
-    for (Facet& facet : made->facets) {
-      const auto polygons = polygons_around_.of(outlines_of(made->vertices, facet.loops),
-                                                made->planes[facet.plane.index()]);
-      std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
-    }
-    fault = fault_of(*made, gone, options_.tolerances);
+    fault = fault_of(*made, gone, options_.tolerances, [&] {
+      const std::set<int> lost = polygons_of(gone);
+      for (Facet& facet : made->facets) {
+        const auto polygons = polygons_around_.of(outlines_of(made->vertices, facet.loops),
+                                                  made->planes[facet.plane.index()]);
+        std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
+      }
+    });
     if (fault) return std::nullopt;
     return made;
   }
@@ -289,21 +376,44 @@ class CellRemover {
   std::optional<Solid> without(const Ids& all, std::optional<Refusal>& fault) {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const auto fates = fates_of(all);
-    std::optional<CellComplex>& complex = *complex_;
-    if (!complex) complex = cell_complex(segmentation_, options_.tolerances, work_);
-    if (!complex) return std::nullopt;
-    auto made = solid_of(draft_of(*complex, cells_without(fates)), gone, fault);
+    if (!complex()) return std::nullopt;
+    const Draft draft = draft_of(*complex(), cells_without(fates));
+    auto made = solid_of(draft, gone, names_of_faces(), fault);
     // Cells that others cut through meet where all planes of the building do; what goes meets the
     // building in a few of them.
-    if (made) return made;
+    if (made || lacks_what_stays(draft.numbers, names_of_faces(), gone)) return made;
     const auto body =
         body_without(solid_, segmentation_, cells_with(fates), options_.tolerances, work_);
     if (!body) return std::nullopt;
-    return solid_of(draft_of(*body, {CellId{0}}), gone, fault);
+    FaceNames names(*body, polygons_around_, segmentation_);
+    return solid_of(draft_of(*body, {CellId{0}}), gone, names, fault);
   }
 
+  /// The input polygons that faces of a complex lie in, each looked for once.
+  class FaceNames {
+   public:
+    FaceNames(const CellComplex& complex, const PolygonsAround& around,
+              const Segmentation& segmentation)
+        : complex_(complex), around_(around), segmentation_(segmentation) {}
+
+    const std::vector<int>& of(FaceId id) {
+      const auto [entry, is_new] = known_.try_emplace(id);
+      if (!is_new) return entry->second;
+      const Face& face = complex_.face(id);
+      const auto found = around_.of(outlines_of(complex_.vertices(), face.loops),
+                                    segmentation_.planes[face.plane.index()]);
+      return entry->second = {found.begin(), found.end()};
+    }
+
+   private:
+    const CellComplex& complex_;
+    const PolygonsAround& around_;
+    const Segmentation& segmentation_;
+    std::map<FaceId, std::vector<int>> known_;
+  };
+
   /// A solid of these faces that does, with vertices as near to each other as that takes.
-  std::optional<Solid> solid_of(const Draft& draft, const Ids& gone,
+  std::optional<Solid> solid_of(const Draft& draft, const Ids& gone, FaceNames& names,
                                 std::optional<Refusal>& fault) {
     Work uncounted(kWorkBudget);
     for (const double coarser : kCoarser) {
@@ -315,20 +425,23 @@ class CellRemover {
       if (!made.value || !is_closed(*made.value) ||
           std::abs(volume_m3(*made.value) - draft.volume_m3) > tolerances.weld_m * draft.area_m2)
         continue;
-      name_polygons(*made.value, draft, gone);
-      fault = fault_of(*made.value, gone, tolerances);
+      fault = fault_of(*made.value, gone, tolerances,
+                       [&] { name_polygons(*made.value, draft, gone, names); });
       if (!fault) return std::move(made.value);
+      if (lacks_what_stays(draft.numbers, names, gone)) break;
     }
     return std::nullopt;
   }
 
   /// Why a solid made of the complex does not do: it falls apart, filled holes reach out of the
   /// building's box, the footprint changes by more than what goes covers, more has changed than the
-  /// features hold, it is not valid, or what stays has no surface.
+  /// features hold, it is not valid, or what stays has no surface. `name_polygons` is called before
+  /// the last is asked.
+  template <class Name>
   [[nodiscard]] std::optional<Refusal> fault_of(const Solid& made, const Ids& gone,
-                                                const Tolerances& tolerances) {
-    if (lumps_of(made) > lumps_of(solid_))
-      return Refusal{{}, "the building would fall apart", Code::G411};
+                                                const Tolerances& tolerances,
+                                                const Name& name_polygons) {
+    if (lumps_of(made) > lumps_of(solid_)) return apart();
     // The planes are found anew, and a vertex may lie so far off its own.
     const double slack_m = tolerances.weld_m + tolerances.plane_offset_m + unseen_m_;
     if (reaches_out(box_of(solid_), box_of(made), slack_m))
@@ -337,11 +450,15 @@ class CellRemover {
     const double footprint_m2 = measures_of(made).footprint_m2;
     double most_m3 = tolerances.weld_m * surface_m2(solid_);
     for (const FeatureId id : gone) most_m3 += feature(id).volume_m3;
+    const Refusal invalid{{}, "removing it would leave no valid solid"};
     if (std::abs(footprint_m2 - footprint_m2_) >
             kFootprint * footprint_m2_ + ground_below_m2(gone) ||
-        std::abs(volume_m3(made) - volume_m3(solid_)) > most_m3 ||
-        detail::loses_what_stays(solid_, made, segmentation_, gone) || !is_fit(made))
-      return Refusal{{}, "removing it would leave no valid solid"};
+        std::abs(volume_m3(made) - volume_m3(solid_)) > most_m3)
+      return invalid;
+    name_polygons();
+    if (detail::loses_what_stays(named_, detail::polygons_named(made), segmentation_, gone) ||
+        !is_fit(made))
+      return invalid;
     return std::nullopt;
   }
 
@@ -378,22 +495,45 @@ class CellRemover {
 
   /// Facets of the solid made name faces of the draft; then the input polygons of the facets of
   /// the solid that these lie in, but for those of features that are gone.
-  void name_polygons(Solid& made, const Draft& draft, const Ids& gone) const {
+  void name_polygons(Solid& made, const Draft& draft, const Ids& gone, FaceNames& names) const {
     const std::set<int> lost = polygons_of(gone);
     for (Facet& facet : made.facets) {
-      std::set<int> polygons;
+      std::vector<int> polygons;
       for (const int i : facet.polygons) {
-        const Face& face = draft.faces[at(i)];
-        std::vector<Outline> shape;
-        for (const Loop& loop : face.loops) {
-          shape.emplace_back();
-          for (const int v : loop) shape.back().push_back(draft.shell.vertices[at(v)]);
-        }
-        polygons.merge(polygons_around_.of(shape, segmentation_.planes[face.plane.index()]));
+        const std::vector<int>& its = names.of(draft.numbers[at(i)]);
+        polygons.insert(polygons.end(), its.begin(), its.end());
       }
-      facet.polygons.clear();
-      std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
+      std::ranges::sort(polygons);
+      polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+      std::erase_if(polygons, [&](int polygon) { return lost.contains(polygon); });
+      facet.polygons = std::move(polygons);
     }
+  }
+
+  /// A feature that stays has none of these faces: no solid of them does.
+  [[nodiscard]] bool lacks_what_stays(const std::vector<FaceId>& faces, FaceNames& names,
+                                      const Ids& gone) const {
+    const std::set<int> lost = polygons_of(gone);
+    std::set<int> named;
+    for (const FaceId face : faces)
+      for (const int polygon : names.of(face))
+        if (!lost.contains(polygon)) named.insert(polygon);
+    return detail::loses_what_stays(named_, named, segmentation_, gone);
+  }
+
+  /// Needs complex().
+  FaceNames& names_of_faces() {
+    if (!names_of_faces_) names_of_faces_.emplace(**complex_, polygons_around_, segmentation_);
+    return *names_of_faces_;
+  }
+
+  /// The cells tell so, where they are known.
+  [[nodiscard]] bool is_hopeless(const Ids& all) {
+    if (!*complex_) return false;
+    std::vector<FaceId> faces;
+    for (const BoundaryFace& part : (*complex_)->boundary(cells_without(fates_of(all))))
+      faces.push_back(part.face);
+    return lacks_what_stays(faces, names_of_faces(), with_what_sits_on(segmentation_, all));
   }
 
   const Solid& solid_;
@@ -404,8 +544,13 @@ class CellRemover {
   double unseen_m_;
   const SegmentOptions& options_;
   std::shared_ptr<std::optional<CellComplex>> complex_;  ///< once asked for
+  std::optional<CellContacts> contacts_;                 ///< likewise
+  int pieces_ = 0;                                       ///< of the building, by its cells
+  bool has_fallen_apart_ = false;
   double footprint_m2_;
   PolygonsAround polygons_around_;
+  std::set<int> named_;                        ///< input polygons, by the solid
+  std::optional<FaceNames> names_of_faces_{};  ///< of the complex
   std::map<FeatureId, Refusal> faults_;
   Ids gone_;  ///< in order; without what goes along
   Ids base_gone_;
