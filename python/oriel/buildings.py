@@ -1,8 +1,11 @@
 """Files: read, write, and the lists of what is read and made."""
 from __future__ import annotations
 
+import base64
+import html
 import os
 import tempfile
+from collections import Counter
 from typing import Any, Generic, Iterable, Iterator, Sequence, TypeVar, Union
 
 from . import _oriel
@@ -46,9 +49,16 @@ class Items(Sequence[Item], Generic[Item]):
             raise KeyError(key)
         return self._items[key]
 
+    def _made(self) -> list[Made]:
+        return [item for item in self._items if isinstance(item, Made)]
+
     def _repr_png_(self) -> bytes | None:
         """What a notebook shows: a picture, of what was made."""
-        return picture(self, size=(900, 600)) if any(isinstance(item, Made) for item in self._items) else None
+        return _png_of(self._made())
+
+    def _repr_html_(self) -> str | None:
+        """What a notebook shows: a picture with the counts of labels below it, of what was made."""
+        return _html_of(self._made())
 
     def __repr__(self) -> str:
         shown = ", ".join(repr(item) for item in self._items[:3])
@@ -164,8 +174,32 @@ def picture(made: Any, *, format: str = "png", azimuth: float = 150, elevation: 
     return bytes_
 
 
-def _picture_of_one(self: Made) -> bytes:
-    return picture(self, size=(900, 600))
+def _png_of(made: list[Made]) -> bytes | None:
+    """None where nothing can be drawn: a notebook then shows something else instead of a traceback."""
+    try:
+        return picture(made, size=(900, 600)) if made else None
+    except Error:
+        return None
 
 
-Made._repr_png_ = _picture_of_one  # type: ignore[attr-defined]
+def _html_of(made: list[Made]) -> str | None:
+    """The picture is an image of its own, so that ids of its parts clash with nothing in the notebook."""
+    if not made:
+        return None
+    counts: Counter[str] = Counter()
+    for item in made:
+        counts.update(item.counts)
+    names = made[0].id if len(made) == 1 else f"{len(made)} buildings"
+    labels = [f"{count} {label or 'unknown'}" for label, count in sorted(counts.items(), key=lambda it: (not it[0], it[0]))
+              if count > 0]
+    caption = html.escape(f"{names}: {', '.join(labels) or 'no labels'}")
+    try:
+        svg = base64.b64encode(picture(made, format="svg", size=(900, 600))).decode()
+        shown = f'<img src="data:image/svg+xml;base64,{svg}" alt="{caption}" style="max-width: 100%"/>'
+    except Error as error:
+        shown = f"<p>{html.escape(str(error))}</p>"
+    return f"<figure>{shown}<figcaption>{caption}</figcaption></figure>"
+
+
+Made._repr_png_ = lambda self: _png_of([self])  # type: ignore[attr-defined]
+Made._repr_html_ = lambda self: _html_of([self])  # type: ignore[attr-defined]

@@ -196,7 +196,15 @@ void bind_buildings(py::module_& module) {
       .def_property_readonly("building", &MadeItem::of, "The building that it was made of.")
       .def_property_readonly("id", [](const MadeItem& made) { return made.of().building().id; })
       .def_property_readonly("issues", &MadeItem::issues,
-                             "What was found on the way; an error says why nothing was made.");
+                             "What was found on the way; an error says why nothing was made.")
+      .def_property_readonly(
+          "counts",
+          [](const MadeItem& made) {
+            std::map<std::string, int> labels;
+            made.count(labels);
+            return labels;
+          },
+          "How many features have each label; '' counts those without one.");
   module.def("picture",
              [](const MadeList& made, const std::string& format, const std::string& view,
                 std::pair<double, double> direction_deg, std::pair<int, int> size_px, bool is_dark,

@@ -404,9 +404,6 @@ void bind_results(py::module_& module) {
       .def_property_readonly(
           "names", [](const StageResult& r) { return names_of_features(r.result()); },
           "By feature a name that a person would use: 'window 3 of facade south, storey 2'.")
-      .def_property_readonly(
-          "counts", [](const StageResult& r) { return count_labels(r.result().interpretation); },
-          "How many features have each label; '' counts those without one.")
       .def_property_readonly("rules", &StageResult::rules)
       .def("__repr__", [](const StageResult& r) {
         return "<oriel.Result '" + r.of().building().id + "': " + state_of(r) + ">";

@@ -1,9 +1,12 @@
 """The module gives the bytes of the command."""
+import base64
 import json
 import unittest
+import xml.etree.ElementTree as ET
 
 import oriel
-from support import GENERATE, HOUSE, SAMPLES, TRUTH, FolderTest, run, stripped_samples
+from oriel.buildings import Items
+from support import GENERATE, HOUSE, OPEN_CUBE, SAMPLES, TRUTH, FolderTest, run, stripped_samples
 
 
 class BytesTest(FolderTest):
@@ -43,6 +46,30 @@ class BytesTest(FolderTest):
         self.assertTrue(labelled[0]._repr_png_().startswith(b"\x89PNG"))
         with self.assertRaises(ValueError):
             oriel.picture(labelled, size=(0, 5))
+
+    def test_a_notebook_shows_a_picture_with_the_counts_of_labels(self):
+        labelled = oriel.label(HOUSE)
+        svg = oriel.picture(labelled, format="svg", size=(900, 600))
+        for shown in (labelled._repr_html_(), labelled["house"]._repr_html_()):
+            image = ET.fromstring(shown).find("img")
+            start = "data:image/svg+xml;base64,"
+            self.assertTrue(image.get("src").startswith(start))
+            self.assertEqual(base64.b64decode(image.get("src")[len(start):]), svg)
+            self.assertEqual(ET.fromstring(shown).findtext("figcaption"),
+                             "house: 1 balcony, 1 canopy, 1 chimney, 2 door, 2 dormer, 1 stairs, 16 window, 29 unknown")
+        two = [sample for name in ("house", "hip") for sample in oriel.label(SAMPLES / f"{name}.stripped.city.json")]
+        self.assertIn("<figcaption>2 buildings: ", Items(two)._repr_html_())
+        self.assertIsNone(oriel.read(HOUSE)._repr_html_())
+        self.assertIsNone(oriel.read(HOUSE)._repr_png_())
+
+    def test_a_notebook_shows_names_and_faults_as_text(self):
+        text = OPEN_CUBE.replace('"cube"', '"<b>a & \\"b\\"</b>"')
+        far = [item for x in (0, 900_000) for item in
+               oriel.label(oriel.read_text(text.replace('"translate":[0', f'"translate":[{x}'), name="far.city.json"))]
+        self.assertIn("&lt;b&gt;a &amp; &quot;b&quot;&lt;/b&gt;: no labels", far[0]._repr_html_())
+        self.assertIsNotNone(far[0]._repr_png_())
+        self.assertIn("E163", ET.fromstring(Items(far)._repr_html_()).findtext("p"))
+        self.assertIsNone(Items(far)._repr_png_())
 
     def test_repaired_buildings(self):
         for name in ("house", "block"):
