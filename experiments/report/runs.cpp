@@ -1,6 +1,7 @@
 #include "experiments/report/runs.h"
 
 #include "experiments/report/cells.h"
+#include "kernel/base/text/slug.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,22 +15,6 @@
 namespace oriel::report {
 
 namespace {
-
-bool is_slug_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
-
-/// Capital letters become small ones, all other runs of characters one hyphen.
-std::string slug_of(const std::string& text) {
-  std::string slug;
-  for (const char c : text) {
-    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (is_slug_letter(small))
-      slug += small;
-    else if (!slug.empty() && slug.back() != '-')
-      slug += '-';
-  }
-  while (!slug.empty() && slug.back() == '-') slug.pop_back();
-  return slug;
-}
 
 std::string heading_of(ExperimentPart part) {
   switch (part) {

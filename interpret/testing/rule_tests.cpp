@@ -123,8 +123,8 @@ bool has_condition(const std::vector<ConditionReport>& reports, const std::strin
 /// One test at work on its buildings.
 class TestRun {
  public:
-  TestRun(const RuleBase& base, const RuleTest& test, std::vector<std::string>& failures)
-      : base_(base), test_(test), failures_(failures) {}
+  TestRun(const RuleBase& base, const RuleTest& test, RuleTestResult& result)
+      : base_(base), test_(test), result_(result) {}
 
   void run(const std::vector<DescribedBuilding>& buildings) {
     for (const DescribedBuilding& building : buildings) {
@@ -133,15 +133,34 @@ class TestRun {
       for (const Verdict& verdict : interpretations_.back().verdicts) ++counts_[verdict.label];
     }
     for (const rules::Expectation& expected : test_.labels) check_labels(expected, buildings);
-    for (const auto& [label, count] : test_.counts)
-      check_count("feature", " labelled " + label, counts_[label == "unknown" ? "" : label], count);
+    for (const auto& [label, count] : test_.counts) {
+      const std::string& found = label == "unknown" ? "" : label;
+      check_count("feature", " labelled " + label, counts_[found], count);
+      if (counts_[found] > count) mark_labelled(found, buildings);
+    }
     for (const auto& [group, count] : test_.groups)
       check_count("group", " " + group, groups_[group], count);
     if (test_.perturbation) check_property(buildings);
+    std::ranges::sort(result_.unexpected);
+    const auto twice = std::ranges::unique(result_.unexpected);
+    result_.unexpected.erase(twice.begin(), twice.end());
   }
 
  private:
-  void fail(std::string sentence) { failures_.push_back(std::move(sentence)); }
+  void fail(std::string sentence) { result_.failures.push_back(std::move(sentence)); }
+  /// Of one feature.
+  void fail(const FeatureTable& table, FeatureId feature, std::string sentence) {
+    fail(std::move(sentence));
+    result_.unexpected.emplace_back(table.building(), table.id(feature));
+  }
+  /// One of them is too many.
+  void mark_labelled(const std::string& label, const std::vector<DescribedBuilding>& buildings) {
+    for (std::size_t b = 0; b < buildings.size(); ++b)
+      for (const Verdict& verdict : interpretations_[b].verdicts)
+        if (verdict.label == label)
+          result_.unexpected.emplace_back(buildings[b].table.building(),
+                                          buildings[b].table.id(verdict.feature));
+  }
 
   void check_count(std::string_view noun, const std::string& which, std::size_t found,
                    std::size_t wanted) {
@@ -157,14 +176,14 @@ class TestRun {
         const std::string& id = buildings[b].table.id(verdict.feature);
         if (!rules::is_match(expected.pattern, id)) continue;
         has_match = true;
-        check_label(expected, id, verdict);
+        check_label(expected, buildings[b].table, verdict);
         for (const rules::Reason& reason : test_.because)
-          check_reason(reason, id, buildings[b], interpretations_[b], verdict.feature);
+          check_reason(reason, buildings[b], interpretations_[b], verdict.feature);
       }
     if (!has_match) fail(fmt::format("nothing is called '{}'", expected.pattern));
   }
 
-  void check_label(const rules::Expectation& expected, const std::string& id,
+  void check_label(const rules::Expectation& expected, const FeatureTable& table,
                    const Verdict& verdict) {
     const rules::Pack& pack = base_.pack();
     const rules::ClassId label = rules::index_of(pack.classes, verdict.label);
@@ -175,19 +194,21 @@ class TestRun {
     if (is_one != expected.is_negated) return;
     std::string found = verdict.label.empty() ? "unknown" : verdict.label;
     if (!verdict.rule.empty()) found += fmt::format(" {:.2f} by {}", verdict.score, verdict.rule);
-    fail(fmt::format("{} is {}, expected {}{}", id, found, expected.is_negated ? "not " : "",
-                     expected.label));
+    fail(table, verdict.feature,
+         fmt::format("{} is {}, expected {}{}", table.id(verdict.feature), found,
+                     expected.is_negated ? "not " : "", expected.label));
   }
 
-  void check_reason(const rules::Reason& reason, const std::string& id,
-                    const DescribedBuilding& building, const Interpretation& interpretation,
-                    FeatureId feature) {
+  void check_reason(const rules::Reason& reason, const DescribedBuilding& building,
+                    const Interpretation& interpretation, FeatureId feature) {
+    const std::string& id = building.table.id(feature);
     const Explanation why =
         Explainer(base_, building.table, building.graph, interpretation).explain(feature);
     const auto rule = std::ranges::find(why.rules, reason.rule, &RuleReport::id);
     if (reason.condition.empty()) {
       if (rule->outcome != reason.outcome)
-        fail(fmt::format("{}: {} {}, expected that it {}", id, reason.rule,
+        fail(building.table, feature,
+             fmt::format("{}: {} {}, expected that it {}", id, reason.rule,
                          outcome_word(rule->outcome), outcome_word(reason.outcome)));
       return;
     }
@@ -195,7 +216,8 @@ class TestRun {
         (has_condition(rule->require, reason.condition, reason.outcome) ||
          has_condition(rule->unless, reason.condition, Outcome::holds)))
       return;
-    fail(fmt::format("{}: {} {}, expected that it {} at \"{}\"", id, reason.rule,
+    fail(building.table, feature,
+         fmt::format("{}: {} {}, expected that it {} at \"{}\"", id, reason.rule,
                      outcome_word(rule->outcome), outcome_word(reason.outcome), reason.condition));
   }
 
@@ -210,7 +232,8 @@ class TestRun {
         for (std::size_t row = 0; row < verdicts.size(); ++row) {
           const std::string& before = interpretations_[b].verdicts[row].label;
           if (verdicts[row].label == before) continue;
-          fail(fmt::format("perturbation {} makes {} {} of {}", round,
+          fail(moved, verdicts[row].feature,
+               fmt::format("perturbation {} makes {} {} of {}", round,
                            moved.id(verdicts[row].feature),
                            verdicts[row].label.empty() ? "unknown" : verdicts[row].label,
                            before.empty() ? "unknown" : before));
@@ -221,28 +244,27 @@ class TestRun {
 
   const RuleBase& base_;
   const RuleTest& test_;
-  std::vector<std::string>& failures_;
+  RuleTestResult& result_;
   std::vector<Interpretation> interpretations_;
   std::map<std::string, std::size_t> groups_;
   std::map<std::string, std::size_t> counts_;
 };
 
-/// The buildings of a test, or its failures.
-std::vector<DescribedBuilding> buildings_of(const RuleTest& test, const std::string& folder,
-                                            const BuildingReader& read,
-                                            std::vector<std::string>& failures) {
+/// The buildings of a test; without any its failures.
+std::vector<DescribedBuilding> buildings_of(const RuleTest& test, const BuildingReader& read,
+                                            RuleTestResult& result) {
   std::vector<DescribedBuilding> buildings;
   if (test.building.empty()) {
     buildings.push_back(rules::make_building(test.name, test.fixture));
     return buildings;
   }
-  auto read_back = read((std::filesystem::path(folder) / test.building).string());
+  auto read_back = read(result.building);
   if (read_back.value) buildings = std::move(*read_back.value);
   std::size_t features = 0;
   for (const DescribedBuilding& building : buildings) features += building.table.rows();
   if (features > 0) return buildings;
-  failures.push_back("nothing was found in '" + test.building + "'");
-  for (const Issue& issue : read_back.issues) failures.push_back(to_string(issue));
+  result.failures.push_back("nothing was found in '" + test.building + "'");
+  for (const Issue& issue : read_back.issues) result.failures.push_back(to_string(issue));
   return buildings;
 }
 
@@ -286,15 +308,17 @@ Checked<RuleTestReport> run_rule_tests(const std::string& path, const BuildingRe
   if (!file) return checked;
   RuleTestReport report;
   report.file = path;
-  report.pack = file->base->file();
+  report.pack = file->base;
   CoverageCounter coverage(file->base->pack(), file->base->file());
-  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const auto folder = std::filesystem::path(path).parent_path();
   for (const RuleTest& test : file->tests) {
-    RuleTestResult result{test.name, test.place, {}};
-    const auto buildings = buildings_of(test, folder, read, result.failures);
-    if (result.failures.empty()) TestRun(*file->base, test, result.failures).run(buildings);
+    RuleTestResult& result = report.tests.emplace_back();
+    result.name = test.name;
+    result.place = test.place;
+    if (!test.building.empty()) result.building = (folder / test.building).string();
+    const auto buildings = buildings_of(test, read, result);
+    if (result.failures.empty()) TestRun(*file->base, test, result).run(buildings);
     for (const DescribedBuilding& building : buildings) coverage.count(building);
-    report.tests.push_back(std::move(result));
   }
   report.rules = coverage.rules();
   checked.value = std::move(report);

@@ -4,7 +4,9 @@
 #include "model/description/feature_graph.h"
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oriel {
@@ -17,8 +19,12 @@ using BuildingReader =
 struct RuleTestResult {
   std::string name;
   Place place;
+  /// The file of the test's buildings; empty: its features are made by hand.
+  std::string building;
   /// A sentence each; empty: the test has passed.
   std::vector<std::string> failures;
+  /// Building and id of the features that are not as the test expects, sorted.
+  std::vector<std::pair<std::string, std::string>> unexpected;
 };
 
 /// How often a condition of a rule held and failed, over all features of all tests.
@@ -52,9 +58,10 @@ struct RuleCoverage {
 enum class CoverageOf { own_rules, all_rules };
 
 struct RuleTestReport {
-  /// The file of the tests and the pack they are for.
+  /// The file of the tests.
   std::string file;
-  std::string pack;
+  /// The pack they are for; there always.
+  std::optional<RuleBase> pack;
   /// In the order of the file.
   std::vector<RuleTestResult> tests;
   /// The pack's own rules, then those of the packs that it extends, each in their order.

@@ -19,8 +19,8 @@ std::string text_of(const Place& place) {
 std::string testcase(const RuleTestReport& report, const RuleTestResult& test) {
   std::string text =
       fmt::format("    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" line=\"{}\"",
-                  escaped_xml(report.pack), escaped_xml(test.name), escaped_xml(test.place.file),
-                  test.place.line);
+                  escaped_xml(report.pack->file()), escaped_xml(test.name),
+                  escaped_xml(test.place.file), test.place.line);
   if (test.failures.empty()) return text + "/>\n";
   text += ">\n";
   for (const std::string& failure : test.failures)

@@ -9,12 +9,14 @@
 #include "io/files/output_file.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
+#include "kernel/base/text/slug.h"
 #include "oriel/rules.h"
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,6 +96,7 @@ void add_check(CLI::App& rules, Action& action) {
 struct RulesTestArguments {
   std::vector<std::string> files;
   std::string junit;
+  std::string pictures;
   double min_coverage = 0;
   double min_conditions = 0;
   bool is_with_base = false;
@@ -116,6 +119,42 @@ bool is_covered(const RuleTestReport& report, const RulesTestArguments& argument
   const CoverageOf of = arguments.coverage();
   return report.rule_coverage(of) * 100 >= arguments.min_coverage &&
          report.condition_coverage(of) * 100 >= arguments.min_conditions;
+}
+
+/// Writes a picture for each failed test whose buildings are in a file, and prints where it lies.
+void write_pictures(const std::vector<RuleTestReport>& reports, const std::string& folder,
+                    Report& report) {
+  constexpr std::size_t kLongestName = 120;
+  std::set<std::string> taken;
+  for (const RuleTestReport& tested : reports)
+    for (const RuleTestResult& test : tested.tests) {
+      if (test.failures.empty()) continue;
+      const auto say = [&](const std::string& what) {
+        print_out(fmt::format("{}:{}:{}: {}\n", printable(test.place.file), test.place.line,
+                              test.place.column, what));
+      };
+      if (test.building.empty()) {
+        say("no picture: " + printable(test.name) + ": its features are made by hand");
+        continue;
+      }
+      auto drawn = picture_of(tested, test);
+      if (!drawn.value) {
+        for (Issue& issue : drawn.issues)
+          if (issue.place.file.empty()) issue.place = test.place;
+        report.add(drawn.issues);
+        continue;
+      }
+      const std::string pack =
+          std::filesystem::path(tested.file).stem().stem().string();  // without .test.yaml
+      const std::string name = slug_of(pack + "-" + test.name).substr(0, kLongestName);
+      std::string unique = name;
+      for (int i = 2; !taken.insert(unique).second; ++i) unique = fmt::format("{}-{}", name, i);
+      const auto path = std::filesystem::path(folder) / (unique + ".svg");
+      std::error_code error;
+      std::filesystem::create_directories(folder, error);  // shows when it is opened
+      write_file(path.string(), *drawn.value);
+      say("picture: " + printable(test.name) + ": " + printable(path.string()));
+    }
 }
 
 ExitCode test(const RulesTestArguments& arguments) {
@@ -145,6 +184,7 @@ ExitCode test(const RulesTestArguments& arguments) {
     reports.push_back(std::move(*tested.value));
   }
   if (!arguments.junit.empty()) write_file(arguments.junit, to_junit(reports));
+  if (!arguments.pictures.empty()) write_pictures(reports, arguments.pictures, report);
   return code;
 }
 
@@ -157,6 +197,9 @@ void add_test(CLI::App& rules, Action& action) {
           "Packs, with their tests in NAME.test.yaml next to NAME.yaml, or the files of tests")
       ->required();
   command->add_option("--junit", arguments->junit, "Write the results to this file, as JUnit XML");
+  command->add_option("--pictures", arguments->pictures,
+                      "Folder for a picture of the building of each failed test, with what is not "
+                      "as expected marked; it is made if it is not there");
   command
       ->add_option("--min-coverage", arguments->min_coverage,
                    "Fail if fewer than this per cent of the rules hold in any test")

@@ -1,6 +1,7 @@
 #include "tests/cli/command.h"
 
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -156,5 +157,57 @@ TEST_SUITE("cli") {
     CHECK(outcome.exit == 5);
     CHECK(outcome.says("E163"));
     CHECK(run({"view", kHouse, far, "--grid", "2x1", "-o", folder / "a.png"}).exit == 0);
+  }
+
+  TEST_CASE("a failed test of rules writes a picture with what it expected otherwise marked") {
+    const Folder folder;
+    folder.write("house.city.json", bytes_of(kHouse));
+    const std::string given = "given: {building: house.city.json}, expect: ";
+    const std::string tests =
+        folder.write("r.test.yaml",
+                     "tests_for: residential\n"
+                     "fixtures: {hand: {features: {d: {a: 2 m}}}}\n"
+                     "tests:\n"
+                     "  - {name: right, " +
+                         given +
+                         "{counts: {window: 16}}}\n"
+                         "  - {name: 'one / door', " +
+                         given +
+                         "{counts: {door: 1}}}\n"
+                         "  - {name: one - door, " +
+                         given +
+                         "{counts: {door: 3}}}\n"
+                         "  - {name: by hand, given: hand, expect: {d: door}}\n");
+    const Outcome outcome = run({"rules", "test", tests, "--pictures", folder / "p/q"});
+    CHECK(outcome.exit == 4);
+    CHECK(outcome.out.find(":5:5: picture: one / door: " + folder / "p/q/r-one-door.svg") !=
+          std::string::npos);
+    CHECK(outcome.out.find(":7:5: no picture: by hand: ") != std::string::npos);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder / "p/q"), {}) == 2);
+    const std::string both = bytes_of(folder / "p/q/r-one-door.svg");
+    const std::string none = bytes_of(folder / "p/q/r-one-door-2.svg");
+    CHECK(both.find(">one / door: 2 features labelled door, expected 1<") != std::string::npos);
+    const std::string mark = "#d00050";
+    CHECK(count_in(both, mark) > 0);  // one of the two doors is too many
+    CHECK(count_in(none, mark) == 0);
+    REQUIRE(run({"rules", "test", tests, "--pictures", folder / "again"}).exit == 4);
+    CHECK(bytes_of(folder / "again/r-one-door.svg") == both);
+  }
+
+  TEST_CASE("tests of rules that pass write no picture and a folder that is a file is an error") {
+    const Folder folder;
+    folder.write("house.city.json", bytes_of(kHouse));
+    const auto test_of = [&](const char* doors) {
+      return folder.write("r.test.yaml",
+                          "tests_for: residential\ntests:\n  - {name: doors, given: {building: "
+                          "house.city.json}, expect: {counts: {door: " +
+                              std::string(doors) + "}}}\n");
+    };
+    CHECK(run({"rules", "test", test_of("2"), "--pictures", folder / "p"}).exit == 0);
+    CHECK_FALSE(std::filesystem::exists(folder / "p"));
+    const std::string file = folder.write("file", "");
+    const Outcome outcome = run({"rules", "test", test_of("1"), "--pictures", file});
+    CHECK(outcome.exit == 6);
+    CHECK(outcome.says("E601"));
   }
 }

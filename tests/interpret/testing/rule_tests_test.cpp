@@ -72,6 +72,23 @@ using Failures = std::vector<std::string>;
 }  // namespace
 
 TEST_SUITE("interpret") {
+  TEST_CASE("a failed test names the features that are not as it expects") {
+    const auto unexpected = [](const std::string& test) {
+      const auto checked = run("  - {name: t, given: front, " + test + "}\n");
+      REQUIRE(checked.value);
+      std::vector<std::string> ids;
+      for (const auto& [building, id] : checked.value->tests.at(0).unexpected) ids.push_back(id);
+      return ids;
+    };
+    using Ids = std::vector<std::string>;
+    CHECK(unexpected("expect: {w.*: window, d: door}").empty());
+    CHECK(unexpected("expect: {w.1: door, d: door}") == Ids{"w.1"});
+    CHECK(unexpected("expect: {w.2: unknown, w.1: not window}") == Ids{"w.1", "w.2"});
+    CHECK(unexpected("expect: {d: door}, because: {w: holds}") == Ids{"d"});
+    CHECK(unexpected("expect: {counts: {door: 0}}") == Ids{"d"});
+    CHECK(unexpected("expect: {counts: {door: 2}}").empty());
+  }
+
   TEST_CASE("expectations of labels counts and groups pass where they are met") {
     CHECK(failures("given: front, expect: {w.*: window, w.1: not door, d: door}").empty());
     CHECK(failures("given: front, expect: {counts: {window: 6, door: 1, unknown: 0}}").empty());
