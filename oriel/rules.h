@@ -26,4 +26,8 @@ Checked<RuleTestReport> run_rule_tests(const std::string& path);
 /// of its buildings cannot be read. The features of the test are not made by hand.
 Checked<std::string> picture_of(const RuleTestReport& report, const RuleTestResult& test);
 
+/// Returns a name for the file of such a picture, "rows-on-a-real-building": of the file of tests
+/// and the test, in small letters, digits and hyphens. Several tests may have the same one.
+std::string picture_name_of(const RuleTestReport& report, const RuleTestResult& test);
+
 }  // namespace oriel

@@ -1,10 +1,12 @@
 #include "oriel/rules.h"
 
+#include "kernel/base/text/slug.h"
 #include "oriel/label.h"
 #include "oriel/read.h"
 #include "oriel/segment.h"
 #include "oriel/write.h"
 
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,6 +66,12 @@ Checked<std::string> picture_of(const RuleTestReport& report, const RuleTestResu
   return picture({std::move(panel)}, PictureFormat::svg);
 } catch (const InputError& error) {
   return {std::nullopt, {error.issue()}};
+}
+
+std::string picture_name_of(const RuleTestReport& report, const RuleTestResult& test) {
+  constexpr std::size_t kLongestName = 120;
+  const auto pack = std::filesystem::path(report.file).stem().stem();  // without .test.yaml
+  return slug_of(pack.string() + "-" + test.name).substr(0, kLongestName);
 }
 
 }  // namespace oriel

@@ -9,7 +9,6 @@
 #include "io/files/output_file.h"
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"
-#include "kernel/base/text/slug.h"
 #include "oriel/rules.h"
 
 #include <filesystem>
@@ -124,7 +123,6 @@ bool is_covered(const RuleTestReport& report, const RulesTestArguments& argument
 /// Writes a picture for each failed test whose buildings are in a file, and prints where it lies.
 void write_pictures(const std::vector<RuleTestReport>& reports, const std::string& folder,
                     Report& report) {
-  constexpr std::size_t kLongestName = 120;
   std::set<std::string> taken;
   for (const RuleTestReport& tested : reports)
     for (const RuleTestResult& test : tested.tests) {
@@ -144,9 +142,7 @@ void write_pictures(const std::vector<RuleTestReport>& reports, const std::strin
         report.add(drawn.issues);
         continue;
       }
-      const std::string pack =
-          std::filesystem::path(tested.file).stem().stem().string();  // without .test.yaml
-      const std::string name = slug_of(pack + "-" + test.name).substr(0, kLongestName);
+      const std::string name = picture_name_of(tested, test);
       std::string unique = name;
       for (int i = 2; !taken.insert(unique).second; ++i) unique = fmt::format("{}-{}", name, i);
       const auto path = std::filesystem::path(folder) / (unique + ".svg");
