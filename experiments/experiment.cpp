@@ -264,6 +264,7 @@ class ExperimentAtWork {
     auto& value = *results.value;
     value.rows.insert(value.rows.end(), measured->rows.begin(), measured->rows.end());
     value.tables.insert(value.tables.end(), measured->tables.begin(), measured->tables.end());
+    value.changed.insert(value.changed.end(), measured->changed.begin(), measured->changed.end());
   }
 
   [[nodiscard]] const PlanSpot& spot_of(ExperimentPart part) const {

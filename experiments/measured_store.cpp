@@ -97,10 +97,25 @@ ReportTable table_from(const MeasuredJson& json) {
   return {json.at("title"), json.at("caption"), json.at("header"), json.at("rows")};
 }
 
+MeasuredJson changed_json(const ChangedBuildings& changed) {
+  MeasuredJson json{{"sentence", changed.sentence}, {"buildings", MeasuredJson::array()}};
+  for (const ReportBuilding& one : changed.buildings)
+    json["buildings"].push_back(MeasuredJson::array({one.name, one.title, one.caption, one.svg}));
+  return json;
+}
+ChangedBuildings changed_from(const MeasuredJson& json) {
+  ChangedBuildings changed{json.at("sentence"), {}};
+  for (const MeasuredJson& one : json.at("buildings"))
+    changed.buildings.push_back({one.at(0), one.at(1), one.at(2), one.at(3)});
+  return changed;
+}
+
 MeasuredPart part_from(const MeasuredJson& json) {
   MeasuredPart part;
   for (const MeasuredJson& row : json.at("rows")) part.rows.push_back(row_from(row));
   for (const MeasuredJson& table : json.at("tables")) part.tables.push_back(table_from(table));
+  for (const MeasuredJson& changed : json.at("changed"))
+    part.changed.push_back(changed_from(changed));
   part.left_out = json.at("left_out").get<std::vector<std::string>>();
   return part;
 }
@@ -128,9 +143,12 @@ void MeasuredStore::keep(const std::string& key, const MeasuredPart& part) const
   if (folder_.empty()) return;
   MeasuredJson json{{"rows", MeasuredJson::array()},
                     {"tables", MeasuredJson::array()},
+                    {"changed", MeasuredJson::array()},
                     {"left_out", part.left_out}};
   for (const ResultRow& row : part.rows) json["rows"].push_back(row_json(row));
   for (const ReportTable& table : part.tables) json["tables"].push_back(table_json(table));
+  for (const ChangedBuildings& changed : part.changed)
+    json["changed"].push_back(changed_json(changed));
   std::error_code problem;
   std::filesystem::create_directories(folder_, problem);
   write_file(path_of(key),

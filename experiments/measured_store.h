@@ -12,6 +12,8 @@ namespace oriel {
 struct MeasuredPart {
   std::vector<ResultRow> rows;
   std::vector<ReportTable> tables;
+  /// Of a comparison one, of other parts none.
+  std::vector<ChangedBuildings> changed{};
   /// Sentences about runs that were left out.
   std::vector<std::string> left_out;
 };

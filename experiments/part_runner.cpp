@@ -1,5 +1,6 @@
 #include "experiments/part_runner.h"
 
+#include "experiments/changed_buildings.h"
 #include "experiments/results/measure.h"
 #include "experiments/results/planned_runs.h"
 #include "experiments/results/result_rows.h"
@@ -295,6 +296,7 @@ FeatureRecipe recipe_with(const SegmentationPlan& options, const SampleSet& set,
 
 MeasuredPart run_comparison(const SampleSet& set, const PartContext& context) {
   PartAtWork work(ExperimentPart::compare, set, context, context.plan.compare.size());
+  ChangedLabels changed(set, context);
   for (const ComparedPlan& compared : context.plan.compare) {
     RunSetting setting;
     setting.name = compared.name;
@@ -303,13 +305,14 @@ MeasuredPart run_comparison(const SampleSet& set, const PartContext& context) {
       work.leave_out(setting, rules.issues);
       continue;
     }
-    const auto other = compared.options.is_empty()
-                           ? std::vector<Sample>()
-                           : context.samples_by(set, recipe_with(compared.options, set, context));
-    work.add(
-        compared.rules.pack, setting,
-        measure(*rules.value, compared.options.is_empty() ? set.samples : other, context.for_each));
+    const FeatureRecipe recipe = recipe_with(compared.options, set, context);
+    const auto other =
+        compared.options.is_empty() ? std::vector<Sample>() : context.samples_by(set, recipe);
+    const auto& samples = compared.options.is_empty() ? set.samples : other;
+    work.add(compared.rules.pack, setting, measure(*rules.value, samples, context.for_each));
+    changed.add(compared.name, *rules.value, recipe.options, samples);
   }
+  work.measured().changed.push_back(changed.draw());
   return work.take();
 }
 

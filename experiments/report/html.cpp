@@ -3,6 +3,8 @@
 #include "kernel/base/text/printable.h"
 #include "kernel/base/text/xml.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace oriel::report {
@@ -25,6 +27,14 @@ void append_html_table(std::string& out, const ReportTable& table) {
   append_html_row(out, table.header, "th");
   for (const auto& row : table.rows) append_html_row(out, row, "td");
   out += "</table></div>\n";
+}
+
+void append_html_changed(std::string& out, const ChangedBuildings& changed) {
+  out += fmt::format("<p>{}</p>\n", escaped_xml(printable(changed.sentence)));
+  for (const ReportBuilding& one : changed.buildings)
+    out += fmt::format("<h3>{}</h3>\n<p>{}</p>\n<div class=\"scroll\">{}</div>\n",
+                       escaped_xml(printable(one.title)), escaped_xml(printable(one.caption)),
+                       one.svg.substr(std::min(one.svg.find("<svg"), one.svg.size())));
 }
 
 /// The page with each {{name}} replaced, from the first to the last.
@@ -52,6 +62,8 @@ std::string html_of(const ExperimentResults& results, const std::vector<ReportSe
       body += fmt::format("<div class=\"scroll\">{}</div>\n", svg_of(chart));
     for (const ReportTable& table : section.tables) append_html_table(body, table);
   }
+  if (!results.changed.empty()) body += "<h2>Buildings that changed</h2>\n";
+  for (const ChangedBuildings& changed : results.changed) append_html_changed(body, changed);
   if (!results.tables.empty())
     body += sections.empty() ? "<h2>Tables</h2>\n" : "<h2>Further tables</h2>\n";
   for (const ReportTable& table : results.tables) append_html_table(body, table);

@@ -41,6 +41,15 @@ void append_section(std::string& out, const ReportSection& section) {
   for (const ReportTable& table : section.tables) append_table(out, table);
 }
 
+void append_changed(std::string& out, const ChangedBuildings& changed) {
+  out += escaped(changed.sentence) + "\n\n";
+  for (const ReportBuilding& one : changed.buildings) {
+    out += fmt::format("### {}\n\n{}\n\n", escaped(one.title), escaped(one.caption));
+    if (!one.svg.empty())
+      out += fmt::format("![{}](figures/{}.svg)\n\n", escaped(one.title), one.name);
+  }
+}
+
 }  // namespace
 
 std::string markdown_of(const ExperimentResults& results,
@@ -48,6 +57,8 @@ std::string markdown_of(const ExperimentResults& results,
   std::string out = fmt::format("# {}\n\n", escaped(results.name));
   if (!results.about.empty()) out += escaped(results.about) + "\n\n";
   for (const ReportSection& section : sections) append_section(out, section);
+  if (!results.changed.empty()) out += "## Buildings that changed\n\n";
+  for (const ChangedBuildings& changed : results.changed) append_changed(out, changed);
   if (!results.tables.empty()) out += sections.empty() ? "## Tables\n\n" : "## Further tables\n\n";
   for (const ReportTable& table : results.tables) append_table(out, table);
   out += "## How it was made\n\n";

@@ -47,6 +47,9 @@ std::vector<ReportFile> report_files(const ExperimentResults& results) {
   for (const ReportSection& section : sections)
     for (const report::Chart& chart : section.charts)
       files.push_back({"figures/" + chart.name + ".svg", svg_of(chart)});
+  for (const ChangedBuildings& changed : results.changed)
+    for (const ReportBuilding& one : changed.buildings)
+      if (!one.svg.empty()) files.push_back({"figures/" + one.name + ".svg", one.svg});
   files.push_back({"manifest.json", manifest_of(results, files)});
   return files;
 }

@@ -77,6 +77,26 @@ struct ReportTable {
   std::vector<std::vector<std::string>> rows;
 };
 
+/// A building in the run that changes most of its labels.
+struct ReportBuilding {
+  /// "changed-houses-1"
+  std::string name;
+  /// "house-3 in wide leaves"
+  std::string title;
+  /// What has changed.
+  std::string caption;
+  /// The building in the baseline and in the run, side by side; empty: it cannot be drawn.
+  std::string svg;
+};
+
+/// The buildings of a set that runs label otherwise than the baseline.
+struct ChangedBuildings {
+  /// Says how many there are, and how many of them are drawn.
+  std::string sentence;
+  /// Those with the most changed labels, the most first.
+  std::vector<ReportBuilding> buildings;
+};
+
 /// All that came of an experiment. Rows are ordered by part, then as the experiment has them.
 struct ExperimentResults {
   std::string name;
@@ -85,6 +105,8 @@ struct ExperimentResults {
   std::vector<ResultRow> rows;
   /// Further tables, shown after the plots.
   std::vector<ReportTable> tables;
+  /// Of each comparison on a set.
+  std::vector<ChangedBuildings> changed{};
   std::vector<ExperimentInput> inputs;
   /// Name and value of each option with its effective value, the seed among them.
   std::vector<std::pair<std::string, std::string>> options;

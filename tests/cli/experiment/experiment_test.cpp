@@ -352,4 +352,41 @@ TEST_SUITE("cli/experiment") {
     CHECK(run_experiment_in(folder, "no", {"--neighbours=" + (folder / "no.city.json")})
               .says("E101"));
   }
+
+  TEST_CASE("the report of a comparison shows the buildings that changed") {
+    const Folder folder;
+    folder.write("e.yaml",
+                 experiment_on_samples("compare:\n  mine: {pack: " + std::string(ORIEL_SOURCE_DIR) +
+                                       "/examples/first_pack.yaml}\n"
+                                       "  same: {params: {widest_window: 2.5 m}}\n"));
+    REQUIRE(run_experiment_in(folder, "out").exit == 0);
+    const fs::path out = folder / "out";
+    const std::string markdown = bytes_of(out / "report.md"), html = bytes_of(out / "report.html");
+    CHECK(markdown.find("## Buildings that changed\n\n2 of 2 buildings of samples have labels") !=
+          std::string::npos);
+    for (const char* name : {"changed-samples-1.svg", "changed-samples-2.svg"}) {
+      CAPTURE(name);
+      const std::string svg = bytes_of(out / "figures" / name);
+      CHECK(svg.find(">as it is<") != std::string::npos);
+      CHECK(svg.find(">mine<") != std::string::npos);
+      CHECK(svg.find("#d00050") != std::string::npos);  // what changed is marked
+      CHECK(markdown.find(std::string("](figures/") + name) != std::string::npos);
+      CHECK(html.find(svg.substr(svg.find("<svg"))) != std::string::npos);
+    }
+    REQUIRE(
+        run_experiment_in(folder, "again", {"--cache", folder / "out/cache", "--resume"}).exit ==
+        0);
+    CHECK(results_in(folder / "again") == results_in(out));
+  }
+
+  TEST_CASE("a comparison that changes no label says so and draws nothing") {
+    const Folder folder;
+    folder.write("e.yaml",
+                 experiment_on_samples("compare: {same: {params: {widest_window: 2.5 m}}}\n"));
+    REQUIRE(run_experiment_in(folder, "out").exit == 0);
+    CHECK(bytes_of(fs::path(folder / "out") / "report.md")
+              .find("0 of 2 buildings of samples have labels that differ from the baseline") !=
+          std::string::npos);
+    CHECK_FALSE(fs::exists(fs::path(folder / "out") / "figures/changed-samples-1.svg"));
+  }
 }

@@ -59,6 +59,26 @@ TEST_SUITE("report") {
     CHECK(shown == 3);
   }
 
+  TEST_CASE("buildings that changed have a figure or the reason why not") {
+    ExperimentResults results = some_results();
+    results.changed.push_back(
+        {"2 of 9 buildings changed.",
+         {{"changed-a-1", "a <b>", "3 labels changed.", "<?xml?>\n<svg>1</svg>"},
+          {"changed-a-2", "c", "It is not drawn: too far.", ""}}});
+    const auto files = report_files(results);
+    CHECK(text_of(files, "figures/changed-a-1.svg") == "<?xml?>\n<svg>1</svg>");
+    CHECK(std::ranges::find(files, "figures/changed-a-2.svg", &ReportFile::path) == files.end());
+    const std::string& page = text_of(files, "report.md");
+    CHECK(has(page, "## Buildings that changed\n\n2 of 9 buildings changed.\n"));
+    CHECK(has(page, "](figures/changed-a-1.svg)"));
+    CHECK_FALSE(has(page, "changed-a-2.svg"));
+    const std::string& html = text_of(files, "report.html");
+    CHECK(has(html, "<h3>a &lt;b&gt;</h3>\n<p>3 labels changed.</p>"));
+    CHECK(has(html, "<div class=\"scroll\"><svg>1</svg>"));
+    CHECK_FALSE(has(html, "<?xml"));
+    CHECK(has(html, "It is not drawn: too far."));
+  }
+
   TEST_CASE("the manifest has the hash of every other file and of the inputs") {
     const auto files = report_files(some_results());
     const std::string& manifest = text_of(files, "manifest.json");
