@@ -15,7 +15,7 @@ import {scalePanel} from './scale/scale';
 import {bindWelcome} from './shell/welcome';
 
 const token = new URLSearchParams(location.search).get('token') ?? '';
-const workbench = new Workbench(new ServerSource(token), new Store(), words.shell.title);
+const workbench = new Workbench(new ServerSource(token, (window as {firstState?: Promise<Response>}).firstState), new Store(), words.shell.title);
 workbench.addLeft(editorPanel, paramsPanel, outlinePanel);
 workbench.addRight(changesPanel, truthPanel, samplesPanel, scalePanel);
 bindCorrections(workbench);

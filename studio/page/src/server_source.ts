@@ -1,4 +1,5 @@
 // The source of the studio: every verb is a POST to the server that gave the page.
+import {pause} from './pause';
 import {shapesOfBytes} from './scene/shape';
 import {
   SourceError, type CorrectQuestion, type LanguageQuestion, type LearnQuestion, type PackQuestion, type SaveQuestion,
@@ -15,16 +16,20 @@ const kMostTries = 10;
 /** A worker that was started again reads the buildings first. */
 const kMostWait_ms = 60_000;
 
-const pause = (ms: number) => new Promise(resolve => setTimeout(resolve, ms));
-
 export class ServerSource implements Source {
   readonly can = {edit: true, explain: true, search: true, scale: true, truth: true};
   onRestart: (() => void) | null = null;
   private restart: Promise<boolean> | null = null;
 
-  constructor(private readonly token: string) {}
+  /** `firstState`: the answer to the first question for the state, which the page has asked already. */
+  constructor(private readonly token: string, private firstState?: Promise<Response>) {}
 
   private request(verb: string, body: object, signal: AbortSignal | null = null): Promise<Response> {
+    const asked = verb === 'state' ? this.firstState : undefined;
+    if (asked) {
+      this.firstState = undefined;
+      return asked;
+    }
     return fetch(`/api/${verb}`, {
       method: 'POST', headers: {'Content-Type': 'application/json', 'X-Oriel-Token': this.token}, body: JSON.stringify(body), signal
     });

@@ -1,10 +1,11 @@
 // The page as a whole: builds the shell with its panels, asks the source for what there is, and keeps the store.
 import type {App, Panel} from './app';
-import {SourceError, type Feature, type Part, type Source} from './source';
+import {SourceError, type Feature, type PackInfo, type Part, type Source, type StateAnswer} from './source';
 import type {Selection, Store} from './store';
 import {el} from './dom';
 import {FeatureNames} from './loading/feature_names';
 import {ShapeLoader} from './loading/shape_loader';
+import {nextPicture, pause} from './pause';
 import {PackRunner} from './pack_runner';
 import {Shell} from './shell/shell';
 import {watchTheme} from './shell/theme';
@@ -18,6 +19,8 @@ import {searchBox} from './search/search';
 import {words} from './strings';
 
 const kPollMs = 400;
+/** So long the panels wait for the parts of the first picture, of which they would take the time. */
+const kMostWait_ms = 300;
 
 export class Workbench implements App {
   readonly shell: Shell;
@@ -60,15 +63,27 @@ export class Workbench implements App {
       void this.followLoading();
     };
     try {
-      await this.readState(true);
-      await Promise.all([this.shapes.first(), this.packs.run(this.store.value.text, undefined, true)]);
-      this.frame();
+      const {pack} = await this.readState();
+      await Promise.all([this.begin(pack), this.packs.run(pack.text, undefined, true)]);
     } catch (error) {
       this.tell(error);
     }
+    this.shell.reveal();
     this.openAddress();
     document.documentElement.dataset['ready'] = 'yes';
     await this.followLoading();
+  }
+
+  /** First the picture comes, then what is around it, and the pack into the editor. */
+  private async begin(pack: PackInfo): Promise<void> {
+    const first = this.shapes.first();
+    await Promise.race([first, pause(kMostWait_ms)]);
+    this.frame();
+    await nextPicture();
+    this.shell.reveal();
+    this.store.set({pack, text: pack.text});
+    await first;
+    this.frame();
   }
 
   /** Buildings that come in while the page is open are drawn and labelled. */
@@ -78,16 +93,16 @@ export class Workbench implements App {
     this.isSettled = false;
     let {done, all} = this.store.value.loading;
     for (let isNew = true; isNew || done < all;) {
-      if (!isNew) await new Promise(resolve => setTimeout(resolve, kPollMs));
+      if (!isNew) await pause(kPollMs);
       try {
-        await this.readState(false);
+        await this.readState();
         const {loading} = this.store.value;
         if (loading.done !== done) await this.packs.run(this.store.value.text);
         isNew = false;
         ({done, all} = loading);
       } catch (error) {
         this.tell(error);
-        await new Promise(resolve => setTimeout(resolve, kPollMs));
+        await pause(kPollMs);
         if (error instanceof SourceError && error.status === 0) break;
       }
     }
@@ -122,14 +137,14 @@ export class Workbench implements App {
   onOpenLine(call: (line: number) => void): void { this.lineOpener = call; }
   get hasEditor(): boolean { return this.lineOpener !== null; }
 
-  private async readState(isFirst: boolean): Promise<void> {
+  private async readState(): Promise<StateAnswer> {
     const state = await this.source.state();
-    const {pack, buildings, loading} = state;
+    const {buildings, loading} = state;
     this.store.set({
       program: state.program, buildings, loading, has_truth: state.has_truth, issues: state.issues, offers_samples: state.offers_samples ?? false,
-      corrections: state.corrections, scales: state.scales, lods: state.lods,
-      ...(isFirst ? {pack, text: pack.text} : {})
+      corrections: state.corrections, scales: state.scales, lods: state.lods
     });
+    return state;
   }
 
   /** A feature or building named behind # is chosen. */

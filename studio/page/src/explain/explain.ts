@@ -1,6 +1,7 @@
 // What is chosen, in words: one plain sentence, then why, why not something else, what would change it, and how it lies to others.
 import type {App, Panel} from '../app';
 import {el, replace} from '../dom';
+import {pause} from '../pause';
 import {looksOf, patchStyle} from '../scene/palette';
 import {ownersOf as ownersOfPolygon} from '../scene/shape';
 import {SourceError, type AttributeEntry, type ConditionRow, type ExplainAnswer, type NearestMiss, type Part, type RelationEntry, type RuleReason} from '../source';
@@ -55,7 +56,7 @@ class Explanation {
 
   /** What would change the label takes time to find: it is searched for where somebody stays. */
   private async addFlip(part: Part, signal: AbortSignal): Promise<void> {
-    await new Promise(done => setTimeout(done, kFlipPause_ms));
+    await pause(kFlipPause_ms);
     if (signal.aborted) return;
     const without = this.content;
     const put = (...children: HTMLElement[]) => {

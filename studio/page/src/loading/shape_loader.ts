@@ -1,6 +1,7 @@
 // Which buildings have their geometry in the page: what was asked for first, then what is large in the picture, in batches that lie
 // together. When there is too much of it, what is far goes, and stands as a box again.
 import type {App} from '../app';
+import {pause} from '../pause';
 import type {BuildingScene} from '../scene/building_scene';
 import {SourceError, type BuildingEntry, type Shape} from '../source';
 import {words} from '../strings';
@@ -71,7 +72,7 @@ export class ShapeLoader {
       await this.load(batch);
       this.trim();
       // The picture, the pointer and the keys have their turn.
-      await new Promise(resolve => setTimeout(resolve, 0));
+      await pause(0);
     }
     this.isRunning = false;
   }

@@ -16,6 +16,7 @@ const kPlain = new Color(surfaceColours.wall);
 export class BuildingBoxes {
   readonly object = new Group();
   readonly bounds = new Box3();
+  readonly material = makeBoxMaterial();
   private placed: PlacedBox[] = [];
   private mesh: InstancedMesh | null = null;
   private away: {has(building: number): boolean} = new Set();
@@ -30,7 +31,7 @@ export class BuildingBoxes {
     this.object.clear();
     this.mesh = null;
     if (boxes.length === 0) return;
-    this.mesh = new InstancedMesh(shadedBox(), makeBoxMaterial(), boxes.length);
+    this.mesh = new InstancedMesh(shadedBox(), this.material, boxes.length);
     this.mesh.instanceMatrix.setUsage(DynamicDrawUsage);
     this.mesh.frustumCulled = false;
     this.object.add(this.mesh);

@@ -1,8 +1,8 @@
 // The picture of buildings: one canvas. It may be made twice (before and after), see divider.ts. It draws when something has changed,
 // and not before.
 import {
-  Box3, BufferAttribute, BufferGeometry, ColorManagement, DoubleSide, Frustum, Group, LinearSRGBColorSpace, LineSegments, Matrix4, Plane, Raycaster, Scene,
-  Vector2, Vector3, WebGLRenderer, type Ray
+  Box3, BufferAttribute, BufferGeometry, Color, ColorManagement, DoubleSide, Frustum, Group, InstancedMesh, LineSegments,
+  LinearSRGBColorSpace, Matrix4, Mesh, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, type Ray
 } from 'three';
 import type {Part, Shape, Vec3} from '../source';
 import type {Selection} from '../store';
@@ -56,6 +56,8 @@ export class BuildingScene {
   private readonly followers: BuildingScene[] = [];
   private isWaiting = false;
   private extra: LineSegments | null = null;
+  /** Nothing was to be drawn yet: the first picture costs a browser that draws in software much time, so it is one of buildings. */
+  private isNew = true;
 
   constructor(readonly host: HTMLElement) {
     this.element = document.createElement('div');
@@ -73,8 +75,19 @@ export class BuildingScene {
     this.renderer.debug.checkShaderErrors = false;  // asking for them waits for the compiler
     this.renderer.outputColorSpace = LinearSRGBColorSpace;  // colours are taken as they are
     this.element.append(this.renderer.domElement);
+    this.prepare(this.renderer);
     new ResizeObserver(() => this.resize()).observe(this.element);
     this.listen();
+  }
+
+  /** Has the browser compile what the first pictures need, while the buildings are asked for. */
+  private prepare(renderer: WebGLRenderer): void {
+    const none = new BufferGeometry();
+    const box = new InstancedMesh(none, this.boxes.material, 1);
+    box.setColorAt(0, new Color());
+    const first = new Scene();
+    first.add(box, new Mesh(none, this.materials.faces), new LineSegments(none, this.materials.lines));
+    renderer.compile(first, this.camera.three);
   }
 
   // ---- what is drawn ----
@@ -86,6 +99,7 @@ export class BuildingScene {
     const gone = new Set([...this.buildings.values()].filter(shape => buildings.get(shape.number) !== shape));
     if (added.length === 0 && gone.size === 0) return;
     this.buildings = buildings;
+    this.isNew = false;
     for (const chunk of [...this.chunks]) {
       const kept = chunk.shapes.map(({shape}) => shape).filter(shape => !gone.has(shape));
       if (kept.length === chunk.shapes.length) continue;
@@ -132,6 +146,7 @@ export class BuildingScene {
   /** Boxes for buildings whose geometry has not come. */
   setBoxes(boxes: PlacedBox[]): void {
     this.boxes.set(boxes, this.buildings);
+    this.isNew = this.isNew && boxes.length === 0;
     this.requestRender();
   }
 
@@ -389,7 +404,7 @@ export class BuildingScene {
   get drawCalls(): number { return this.renderer?.info.render.calls ?? 0; }
 
   private render(): void {
-    if (!this.renderer || this.element.clientWidth === 0) return;
+    if (!this.renderer || this.element.clientWidth === 0 || this.isNew) return;
     this.camera.fitDepth(this.bounds);
     // A pattern's period is some ten pixels where the camera looks at.
     const height = this.element.clientHeight;

@@ -38,7 +38,7 @@ export class Shell {
       el('button', {type: 'button', class: 'icon-button', 'aria-label': words.shell.theme, title: words.shell.theme,
         onclick: () => switchTheme(store)}, icon('theme')),
       helpButton());
-    this.frame = el('div', {class: 'frame'}, this.bar,
+    this.frame = el('div', {class: 'frame', 'data-opening': ''}, this.bar,
       this.left.element, dragger(words.shell.divider, 'left'), el('main', {class: 'stage'}, this.sceneHost),
       dragger(words.shell.sheet, 'right'), this.right.element);
     root.replaceChildren(el('a', {class: 'skip', href: '#scene'}, words.shell.skip), this.frame);
@@ -66,6 +66,9 @@ export class Shell {
     this.search = box.search;
     this.bar.querySelector('.bar-space')!.after(box.element);
   }
+
+  /** Shows what is around the picture. */
+  reveal(): void { delete this.frame.dataset['opening']; }
 
   /** Puts every panel where it belongs at this width. */
   settle(): void {

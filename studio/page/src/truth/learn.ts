@@ -2,6 +2,7 @@
 import type {App} from '../app';
 import {el, replace} from '../dom';
 import {authorOf} from '../editor/author';
+import {pause} from '../pause';
 import {changeView, proposalView} from '../saving/diff';
 import type {LearnAnswer, RuleProposal} from '../source';
 import {words} from '../strings';
@@ -55,7 +56,7 @@ export class LearnBox {
       let answer = await this.app.source.learn({objective: this.objective.value || 'macro_f1', propose: this.proposes.checked});
       while (answer.state === 'running') {
         this.showProgress(answer);
-        await new Promise(resolve => setTimeout(resolve, kPoll_ms));
+        await pause(kPoll_ms);
         answer = await this.app.source.learn({});
       }
       if (answer.state === 'idle' && !this.isStopped) this.told.textContent = words.learn.lost;

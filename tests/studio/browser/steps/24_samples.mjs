@@ -7,7 +7,8 @@ export const title = 'houses on one spot stand side by side with their names, an
 export const studio = {files: kFiles};
 export const context = {viewport: {width: 1440, height: 900}, reducedMotion: 'reduce'};
 
-/** What is hit at points all over the picture, and how much its colours differ from the ground, by whether it is the chosen building. */
+/** What is hit at points all over the picture, by whether it is the chosen building: how much its colours differ from the ground, and how
+    often it has the colour of its class, whatever the shade. */
 const seen = page => page.evaluate(() => new Promise(done => {
   const {scene, store} = window.oriel;
   const look = () => {
@@ -18,7 +19,12 @@ const seen = page => page.evaluate(() => new Promise(done => {
     const drawn = copy.getContext('2d', {willReadFrequently: true});
     drawn.drawImage(source, 0, 0);
     const {left, top, width, height} = source.getBoundingClientRect();
-    const found = {own: {hits: 0, contrast: 0}, others: {hits: 0, contrast: 0}};
+    const found = {own: {hits: 0, contrast: 0, coloured: 0}, others: {hits: 0, contrast: 0, coloured: 0}};
+    const {looks, unknown} = scene.paint;
+    const isShadeOf = (colour, base) => {
+      const shade = (colour[0] + colour[1] + colour[2]) / (base[0] + base[1] + base[2]);
+      return shade > 0.65 && shade < 1.1 && base.every((value, k) => Math.abs(colour[k] - shade * value) < 8);
+    };
     for (let i = 1; i < 20; ++i)
       for (let j = 1; j < 20; ++j) {
         const x = width * i / 20, y = height * j / 20;
@@ -27,22 +33,29 @@ const seen = page => page.evaluate(() => new Promise(done => {
         const of = hit.selection.building === store.value.selection?.building ? found.own : found.others;
         const colour = drawn.getImageData(x * copy.width / width, y * copy.height / height, 1, 1).data;
         ++of.hits;
+        const label = store.value.labels.get(hit.selection.building)?.[hit.selection.feature] ?? -1;
+        const look = (label < 0 ? unknown : looks[label]).colour;
+        if (isShadeOf(colour, [1, 3, 5].map(at => parseInt(look.slice(at, at + 2), 16)))) ++of.coloured;
         of.contrast += Math.hypot(colour[0] - 0xf6, colour[1] - 0xf5, colour[2] - 0xf2);
       }
-    done({own: found.own.hits, others: found.others.hits, ownContrast: found.own.contrast / found.own.hits, otherContrast: found.others.contrast / found.others.hits});
+    done({own: found.own.hits, others: found.others.hits, ownColoured: found.own.coloured / found.own.hits, ownContrast: found.own.contrast / found.own.hits, otherContrast: found.others.contrast / found.others.hits});
   };
   scene.onRender.push(look);
   scene.requestRender();
 }));
+
+async function seesChosen({page, check}, width) {
+  const chosen = await seen(page);
+  check(chosen.own > 40 && chosen.ownColoured > 0.6, `a chosen building is what one sees, in its colours, at ${width} pixels: ${JSON.stringify(chosen)}`);
+  check(chosen.otherContrast < 0.75 * chosen.ownContrast, 'and its neighbours are faded');
+}
 
 async function choosesOne({page, check, picture}) {
   await page.evaluate(() => document.activeElement.blur());
   await page.fill('#search', 'l-house.labelled');
   await page.press('#search', 'Enter');
   await page.waitForFunction(() => window.oriel.store.value.selection !== null);
-  const chosen = await seen(page);
-  check(chosen.own > 40, `a chosen building is what one sees: ${JSON.stringify(chosen)}`);
-  check(chosen.otherContrast < 0.75 * chosen.ownContrast, 'and its neighbours are faded');
+  await seesChosen({page, check}, 1440);
   await picture('samples_chosen');
   await page.click('#tool-only');
   const alone = await seen(page);
@@ -86,4 +99,11 @@ export async function run({page, studio, check, picture}) {
   await page.evaluate(() => window.oriel.scene.fly(null));
   check(await cropped(page) === 0, 'on a phone, too');
   await picture('samples_390');
+  await page.evaluate(() => {
+    const {store} = window.oriel;
+    window.oriel.select({building: store.value.buildings.findIndex(({file}) => file.includes('l-house.labelled'))}, true);
+  });
+  await page.waitForFunction(() => window.oriel.store.value.selection !== null);
+  await seesChosen({page, check}, 390);
+  await picture('samples_chosen_390');
 }
