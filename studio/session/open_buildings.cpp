@@ -1,5 +1,6 @@
 #include "studio/session/open_buildings.h"
 
+#include "io/tiles/earth.h"
 #include "oriel/segment.h"
 #include "studio/session/request_body.h"
 #include "studio/session/saved_file.h"
@@ -226,7 +227,8 @@ void OpenBuildings::read_file(std::size_t number) {
   add_issues(issues);
   std::vector<Standee> standees;
   for (const BuildingOfFile& each : read)
-    standees.push_back({path, box_of(*each.building), each.building->frame.origin_m});
+    standees.push_back({path, box_of(*each.building), each.building->frame.origin_m,
+                        short_name_of_crs(each.building->frame.crs)});
   const std::lock_guard lock(mutex_);
   --files_left_;
   read_.insert(read_.end(), read.begin(), read.end());

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace oriel::studio {
@@ -36,12 +39,26 @@ MapCell cell_of(const Box& box) {
   return {along(at.x), along(at.y), along(at.z)};
 }
 
-/// The cells around that with the most buildings, as far as one touches the next.
-std::set<MapCell> main_cells(std::span<const Standee> all) {
+/// Those that have a place, by the reference system that they name, the system of most first. Those
+/// that name none are taken to be of that one.
+std::vector<StandeeNumbers> by_system(std::span<const Standee> all) {
+  std::map<std::string_view, StandeeNumbers> named;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!all[i].box_m.is_empty()) named[all[i].system].push_back(i);
+  const StandeeNumbers unnamed = std::exchange(named[""], {});
+  std::vector<StandeeNumbers> systems;
+  for (auto& [name, numbers] : named) systems.push_back(std::move(numbers));
+  std::ranges::stable_sort(systems, std::greater(), &StandeeNumbers::size);
+  systems[0].insert(systems[0].end(), unnamed.begin(), unnamed.end());
+  std::ranges::sort(systems[0]);
+  std::erase_if(systems, &StandeeNumbers::empty);
+  return systems;
+}
+
+/// The cells around that with the most of some buildings, as far as one touches the next.
+std::set<MapCell> main_cells(std::span<const Standee> all, const StandeeNumbers& some) {
   std::map<MapCell, std::size_t> counts;
-  for (const Standee& one : all)
-    if (!one.box_m.is_empty()) ++counts[cell_of(one.box_m)];
-  if (counts.empty()) return {};
+  for (const std::size_t i : some) ++counts[cell_of(all[i].box_m)];
   const auto most =
       std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; });
   const MapCell fullest = most->first;
@@ -151,12 +168,11 @@ double stand_in_rows(std::span<const Standee> all, const std::vector<StandeeNumb
 /// apart the corners of a house that is far from the origin. What is of one cell stays together,
 /// unless it lies upon each other.
 void put_out_of_sight(std::span<const Standee> all, const StandeeNumbers& far, double from_m,
-                      Vec3 middle, std::vector<Standing>& made) {
+                      std::vector<Standing>& made) {
   for (const std::size_t i : far) {
     const MapCell cell = cell_of(all[i].box_m);
     const auto at = [&](std::size_t axis) { return static_cast<double>(cell[axis]) * kCell_m; };
     made[i].origin_m = Vec3{at(0), at(1), at(2)} - Vec3{from_m, 0, 0};
-    made[i].away_m = length(middle_of(all[i].box_m) - middle);
   }
   double next_m = from_m + 2 * kCell_m;
   for (const StandeeNumbers& unit : moving_units(all, far)) {
@@ -176,17 +192,35 @@ Box box_of(const Building& building) {
 
 std::vector<Standing> standings(std::span<const Standee> all) {
   std::vector<Standing> made(all.size());
-  const std::set<MapCell> cells = main_cells(all);
-  StandeeNumbers near, far;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (!all[i].box_m.is_empty()) (cells.contains(cell_of(all[i].box_m)) ? near : far).push_back(i);
-  if (near.empty()) return made;
-  const std::vector<StandeeNumbers> units = moving_units(all, near);
-  for (const StandeeNumbers& unit : units)
-    for (const std::size_t i : unit) made[i].is_moved = true;
+  StandeeNumbers main, far;
+  std::vector<StandeeNumbers> units;
+  for (const StandeeNumbers& system : by_system(all)) {
+    const std::set<MapCell> cells = main_cells(all, system);
+    const auto is_near = [&](std::size_t i) { return cells.contains(cell_of(all[i].box_m)); };
+    StandeeNumbers near;
+    std::ranges::copy_if(system, std::back_inserter(near), is_near);
+    const Vec3 middle = middle_of(box_of(all, near));
+    for (const std::size_t i : system) {
+      if (is_near(i)) continue;
+      far.push_back(i);
+      made[i].away_m = length(middle_of(all[i].box_m) - middle);
+    }
+    std::vector<StandeeNumbers> moved = moving_units(all, near);
+    for (const StandeeNumbers& unit : moved)
+      for (const std::size_t i : unit) made[i].is_moved = true;
+    if (main.empty()) {
+      main = std::move(near);
+    } else {
+      std::erase_if(near, [&](std::size_t i) { return made[i].is_moved; });
+      for (const std::size_t i : near) made[i].is_moved = true;
+      if (!near.empty()) moved.push_back(std::move(near));
+    }
+    std::ranges::move(moved, std::back_inserter(units));
+  }
+  if (main.empty()) return made;
 
   Box whole, rest, frames;
-  for (const std::size_t i : near) {
+  for (const std::size_t i : main) {
     whole.grow(all[i].box_m);
     if (made[i].is_moved) continue;
     rest.grow(all[i].box_m);
@@ -198,7 +232,7 @@ std::vector<Standing> standings(std::span<const Standee> all) {
       rest.is_empty() ? Vec3{} : Vec3{rest.max.x - origin_m.x, 0, rest.min.z - origin_m.z};
   const double end_m = stand_in_rows(all, units, begin, made);
   const double from_m = std::max(end_m, whole.max.x - whole.min.x) + 4 * kCell_m;
-  put_out_of_sight(all, far, from_m, middle_of(whole), made);
+  put_out_of_sight(all, far, from_m, made);
   return made;
 }
 

@@ -14,6 +14,8 @@ struct Standee {
   Box box_m;
   /// The origin of its own frame.
   Vec3 frame_m{};
+  /// The coordinate reference system that its file names, by one name for each; or empty.
+  std::string system{};
 };
 
 /// Where a building stands in the picture.
@@ -31,8 +33,8 @@ Box box_of(const Building& building);
 
 /// Gives where buildings stand: as they lie to each other, in the frame of where most are. Files
 /// whose buildings lie upon those of other files stand beside the rest, side by side; a file whose
-/// own buildings mostly lie upon each other has each of them beside the others. What is far away
-/// stands out of sight.
+/// own buildings mostly lie upon each other has each of them beside the others. So stands what
+/// names another reference system than most. What is far away stands out of sight.
 std::vector<Standing> standings(std::span<const Standee> buildings);
 
 }  // namespace oriel::studio

@@ -37,6 +37,30 @@ TEST_SUITE("studio/session") {
     CHECK(buildings[1]["at_m"][0].get<double>() > end);
   }
 
+  TEST_CASE("files of different reference systems stand side by side however a system is written") {
+    const StudioFolder folder("systems");
+    std::ifstream in(sample_file("house.stripped.city.json"));
+    json model = json::parse(in);
+    studio::SessionOptions options;
+    options.corrections.clear();
+    const std::string systems[] = {"https://www.opengis.net/def/crs/EPSG/0/25832",
+                                   "urn:ogc:def:crs:EPSG::25832",
+                                   "https://www.opengis.net/def/crs/EPSG/0/25833"};
+    for (const std::string& system : systems) {
+      model["metadata"]["referenceSystem"] = system;
+      const json& x = model["transform"]["translate"][0];
+      model["transform"]["translate"][0] = x.get<double>() + 40;
+      options.files.push_back(folder.file(std::to_string(options.files.size()) + ".city.json"));
+      std::ofstream(options.files.back()) << model;
+    }
+    StudioBench bench(options);
+    const json buildings = bench.ask("state", json::object())["buildings"];
+    REQUIRE(buildings.size() == 3);
+    CHECK_FALSE(buildings[0].contains("is_moved"));
+    CHECK_FALSE(buildings[1].contains("is_moved"));
+    CHECK(buildings[2]["is_moved"] == true);
+  }
+
   TEST_CASE("what is more than a studio keeps is passed over and said") {
     studio::SessionOptions options = sample_options();
     options.most_corners = 1;

@@ -80,6 +80,27 @@ TEST_SUITE("studio/session") {
     CHECK(made[2].origin_m == Vec3{0, 0, 0});
   }
 
+  TEST_CASE("what names another reference system than most stands beside them as it lies") {
+    std::vector<Standee> all;
+    const auto add = [&](const std::string& file, double x, double y, const std::string& system) {
+      all.push_back(house(file, x, y));
+      all.back().system = system;
+    };
+    for (int i = 0; i < 3; ++i) add("germany", 500000 + 20.0 * i, 5e6, "EPSG:25832");
+    add("unnamed", 500060, 5e6, "");
+    for (int i = 0; i < 2; ++i) add("next zone", 500000 + 20.0 * i, 5e6 + 40, "EPSG:25833");
+    add("far in it", 700000, 5e6, "EPSG:25833");
+    const auto made = standings(all);
+    for (int i = 0; i < 4; ++i) {
+      CHECK_FALSE(made[i].is_moved);
+      CHECK(made[i].origin_m == made[0].origin_m);
+    }
+    CHECK(made[4].is_moved);
+    CHECK(made[5].origin_m == made[4].origin_m);
+    CHECK(seen(all[4], made[4]).min.x > seen(all[3], made[3]).max.x);
+    CHECK(std::abs(made[6].away_m - 200000) < 1000);
+  }
+
   TEST_CASE("of nothing and of buildings without vertices nothing is moved") {
     CHECK(standings({}).empty());
     const std::vector<Standee> all{{"f", {}, {}}, {"g", {}, {}}};
