@@ -6,6 +6,7 @@
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/slug.h"
 #include "oriel/label.h"
+#include "oriel/picture.h"
 #include "oriel/write.h"
 
 #include <algorithm>
@@ -105,7 +106,8 @@ Checked<std::string> ChangedLabels::picture_of(
     PicturePanel& panel = panels.emplace_back();
     panel.caption = name;
     panel.frame = 0;
-    for (const auto& [id, labels] : change.labels) panel.marked.emplace_back(change.building, id);
+    for (const auto& [id, labels] : change.labels)
+      panel.marks[{change.building, id}] = PictureMark::changed;
     const auto& buildings = by_lod.at(how.lod);
     const auto found = buildings.find(change.building);
     if (found != buildings.end())  // else it is not there at this level of detail

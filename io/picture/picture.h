@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-/// Pictures of labelled buildings, without a browser (docs/picture.md).
+/// Pictures of labelled buildings, without a browser (docs/command.md#pictures).
 namespace oriel {
 
 enum class PictureFormat { png, svg, pdf };

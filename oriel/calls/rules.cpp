@@ -2,6 +2,7 @@
 
 #include "kernel/base/text/slug.h"
 #include "oriel/label.h"
+#include "oriel/picture.h"
 #include "oriel/read.h"
 #include "oriel/segment.h"
 #include "oriel/write.h"
@@ -58,7 +59,8 @@ Checked<RuleTestReport> run_rule_tests(const std::string& path) {
 Checked<std::string> picture_of(const RuleTestReport& report, const RuleTestResult& test) try {
   auto file = read(test.building);
   if (!file.value) return {std::nullopt, std::move(file.issues)};
-  PicturePanel panel{.caption = caption_of(test), .marked = test.unexpected};
+  PicturePanel panel{.caption = caption_of(test)};
+  for (const auto& feature : test.unexpected) panel.marks[feature] = PictureMark::wrong;
   for (const Document& document : *file.value)
     for (const Building& building : document.buildings)
       append_building(panel.mesh, building,

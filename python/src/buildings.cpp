@@ -1,3 +1,4 @@
+#include "oriel/picture.h"
 #include "oriel/read.h"
 #include "oriel/write.h"
 #include "python/src/handles.h"
