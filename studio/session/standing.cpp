@@ -194,6 +194,10 @@ std::vector<Standing> standings(std::span<const Standee> all) {
   std::vector<Standing> made(all.size());
   StandeeNumbers main, far;
   std::vector<StandeeNumbers> units;
+  const auto take_away = [&](const StandeeNumbers& unit) {
+    for (const std::size_t i : unit) made[i].is_moved = true;
+    units.push_back(unit);
+  };
   for (const StandeeNumbers& system : by_system(all)) {
     const std::set<MapCell> cells = main_cells(all, system);
     const auto is_near = [&](std::size_t i) { return cells.contains(cell_of(all[i].box_m)); };
@@ -205,17 +209,13 @@ std::vector<Standing> standings(std::span<const Standee> all) {
       far.push_back(i);
       made[i].away_m = length(middle_of(all[i].box_m) - middle);
     }
-    std::vector<StandeeNumbers> moved = moving_units(all, near);
-    for (const StandeeNumbers& unit : moved)
-      for (const std::size_t i : unit) made[i].is_moved = true;
+    for (const StandeeNumbers& unit : moving_units(all, near)) take_away(unit);
     if (main.empty()) {
       main = std::move(near);
     } else {
       std::erase_if(near, [&](std::size_t i) { return made[i].is_moved; });
-      for (const std::size_t i : near) made[i].is_moved = true;
-      if (!near.empty()) moved.push_back(std::move(near));
+      if (!near.empty()) take_away(near);
     }
-    std::ranges::move(moved, std::back_inserter(units));
   }
   if (main.empty()) return made;
 

@@ -26,11 +26,8 @@ export class ServerSource implements Source {
 
   private request(verb: string, body: object, signal: AbortSignal | null = null): Promise<Response> {
     const asked = verb === 'state' ? this.firstState : undefined;
-    if (asked) {
-      this.firstState = undefined;
-      return asked;
-    }
-    return fetch(`/api/${verb}`, {
+    if (asked) this.firstState = undefined;
+    return asked ?? fetch(`/api/${verb}`, {
       method: 'POST', headers: {'Content-Type': 'application/json', 'X-Oriel-Token': this.token}, body: JSON.stringify(body), signal
     });
   }
@@ -43,12 +40,9 @@ export class ServerSource implements Source {
       if (signal?.aborted) throw error;
     }
     if (!await this.hasRestarted()) throw new SourceError(words.source.gone, 0);
-    if (!kAskedAgain.has(verb)) throw new SourceError(words.source.restarted(verb), 0, {restarted: true});
-    try {
-      return await this.request(verb, body, signal);
-    } catch {
-      throw new SourceError(words.source.restarted(verb), 0, {restarted: true});
-    }
+    const again = kAskedAgain.has(verb) ? await this.request(verb, body, signal).catch(() => null) : null;
+    if (!again) throw new SourceError(words.source.restarted(verb), 0);
+    return again;
   }
 
   /** True once a new worker answers; false if the program has ended. Questions that fail together wait for the same answer. */

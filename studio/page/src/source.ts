@@ -157,8 +157,6 @@ export interface TruthAnswer { objects: TruthObject[] }
 export class SourceError extends Error {
   constructor(message: string, readonly status: number, readonly body: Record<string, unknown> = {}) { super(message); }
   get isSuperseded(): boolean { return this.body['superseded'] === true; }
-  /** The program ended at the question and was started again: nothing was done. */
-  get isRestarted(): boolean { return this.body['restarted'] === true; }
 }
 
 /** One method a verb. What a source cannot do throws SourceError with status 501; `can` says so beforehand. */

@@ -77,7 +77,7 @@ export const words = {
     changes: 'What changed', truth: 'Truth', colours: 'Colours', colour: 'Colours', pattern: 'Patterns', heat: 'Heat map', heatOf: 'Heat map of',
     heatKinds: {unknown: 'unknown parts', doubtful: 'doubtful parts', wrong: 'wrong parts', changed: 'changed parts'},
     unread: (n: number, first: string) => `${count(n, 'fault', 'faults')} in what was read; the first: ${first}`,
-    moved: 'Buildings that lie upon each other, or are of different reference systems, stand side by side.',
+    moved: 'Buildings on one spot or of other systems stand apart.',
     away: (n: number) => `${count(n, 'building lies', 'buildings lie')} too far away for this picture:`,
     awayBy: (name: string, m: number) => `${name} (${Math.round(m / 1000).toLocaleString('en')} km)`,
     unknown: 'unknown', surface: 'surface', measureHint: 'Click two points. Corners attract; Esc ends it.',

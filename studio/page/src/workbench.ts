@@ -135,7 +135,6 @@ export class Workbench implements App {
   open(panel: string, onlyIfSeen = false): void { this.shell.open(panel, onlyIfSeen); }
   openLine(line: number): void { this.lineOpener?.(line); }
   onOpenLine(call: (line: number) => void): void { this.lineOpener = call; }
-  get hasEditor(): boolean { return this.lineOpener !== null; }
 
   private async readState(): Promise<StateAnswer> {
     const state = await this.source.state();

@@ -400,9 +400,6 @@ export class BuildingScene {
     requestAnimationFrame(() => { this.isWaiting = false; this.render(); });
   }
 
-  /** Calls that the last picture took. */
-  get drawCalls(): number { return this.renderer?.info.render.calls ?? 0; }
-
   private render(): void {
     if (!this.renderer || this.element.clientWidth === 0 || this.isNew) return;
     this.camera.fitDepth(this.bounds);
@@ -416,7 +413,7 @@ export class BuildingScene {
       if (this.isCut) chunk.mesh.geometry.setDrawRange(0, Infinity);  // what is left out would not be counted
     }
     this.renderer.render(this.scene, this.camera.three);
-    this.host.dataset['drawCalls'] = String(this.drawCalls);
+    this.host.dataset['drawCalls'] = String(this.renderer.info.render.calls);
     for (const call of this.onRender) call();
   }
 

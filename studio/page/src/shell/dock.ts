@@ -16,8 +16,6 @@ export class Dock {
     this.tabs.addEventListener('keydown', event => this.onKey(event));
   }
 
-  get shown(): string | null { return this.current; }
-  get all(): readonly Panel[] { return this.panels; }
   has(id: string): boolean { return this.panels.some(panel => panel.id === id); }
 
   set(panels: Panel[]): void {
