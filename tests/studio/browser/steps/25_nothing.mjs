@@ -13,10 +13,10 @@ export async function run({page, studio, check, picture}) {
   check(await page.locator('.status .grave').count() === 0 && await page.locator('.findings:not([hidden])').count() === 0, 'a new pack is no error');
   await picture('nothing_1440');
   await page.setViewportSize({width: 390, height: 844});
-  const fits = await page.evaluate(() => [...document.querySelectorAll('.welcome .button')].every(button => {
+  const fits = await page.waitForFunction(() => [...document.querySelectorAll('.welcome .button')].every(button => {
     const {left, right, top, bottom} = button.getBoundingClientRect();
     return left >= 0 && right <= innerWidth && button.contains(document.elementFromPoint((left + right) / 2, (top + bottom) / 2));
-  }) && document.documentElement.scrollWidth <= innerWidth);
+  }) && document.documentElement.scrollWidth <= innerWidth, null, {timeout: 3000}).then(() => true, () => false);
   check(fits, 'on a phone, too');
   await picture('nothing_390');
   await page.setViewportSize({width: 1440, height: 900});
