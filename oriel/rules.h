@@ -21,9 +21,10 @@ namespace oriel {
 /// tolerances as they are, not fitted to noise: tests say what features measure.
 Checked<RuleTestReport> run_rule_tests(const std::string& path);
 
-/// Draws the buildings of a test that failed, as they are labelled, as SVG (docs/command.md#pictures); what
-/// is not as the test expects is marked. Without a value: what picture() says, or E101 if the file
-/// of its buildings cannot be read. The features of the test are not made by hand.
+/// Draws the buildings of a test that failed, as they are labelled, as SVG
+/// (docs/command.md#pictures); what is not as the test expects is marked. Without a value: what
+/// picture() says, or E101 if the file of its buildings cannot be read. The features of the test
+/// are not made by hand.
 Checked<std::string> picture_of(const RuleTestReport& report, const RuleTestResult& test);
 
 /// Returns a name for the file of such a picture, "rows-on-a-real-building": of the file of tests

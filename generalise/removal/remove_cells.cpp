@@ -381,7 +381,8 @@ class CellRemover {
     auto made = solid_of(draft, gone, names_of_faces(), fault);
     // Cells that others cut through meet where all planes of the building do; what goes meets the
     // building in a few of them.
-    if (made || lacks_what_stays(draft.numbers, names_of_faces(), gone)) return made;
+    if (made) return made;
+    if (is_complex_closed() && lacks_what_stays(draft.numbers, names_of_faces(), gone)) return made;
     const auto body =
         body_without(solid_, segmentation_, cells_with(fates), options_.tolerances, work_);
     if (!body) return std::nullopt;
@@ -521,6 +522,12 @@ class CellRemover {
     return detail::loses_what_stays(named_, named, segmentation_, gone);
   }
 
+  /// Needs complex(). It tells all of the building then.
+  bool is_complex_closed() {
+    if (!is_complex_closed_) is_complex_closed_ = (*complex_)->open_edge_count() == 0;
+    return *is_complex_closed_;
+  }
+
   /// Needs complex().
   FaceNames& names_of_faces() {
     if (!names_of_faces_) names_of_faces_.emplace(**complex_, polygons_around_, segmentation_);
@@ -545,6 +552,7 @@ class CellRemover {
   const SegmentOptions& options_;
   std::shared_ptr<std::optional<CellComplex>> complex_;  ///< once asked for
   std::optional<CellContacts> contacts_;                 ///< likewise
+  std::optional<bool> is_complex_closed_{};              ///< likewise
   int pieces_ = 0;                                       ///< of the building, by its cells
   bool has_fallen_apart_ = false;
   double footprint_m2_;

@@ -62,6 +62,7 @@ const std::map<std::string, std::string> kAllowedInStudio{
     {"io/cityjson/carried_labels.h", "recordings have the labels that a file carries"},
     {"io/document.h", "the records that the library reads"},
     {"io/files/file_lock.h", "one studio at a time saves"},
+    {"io/tiles/earth.h", "files of one reference system are told, however it is written"},
     {"io/files/output_file.h", "packs and corrections appear when they are whole"},
     {"model/building.h", "a value"},
     {"model/description/attributes.h", "attributes are listed with unit and meaning"},
