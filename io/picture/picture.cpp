@@ -29,7 +29,8 @@ constexpr double kMargin_px = 12, kCaption_px = 26, kCaptionText_px = 14, kCapti
 /// A panel in its place, with what can be seen of it.
 struct PlacedPanel {
   const PicturePanel* panel = nullptr;
-  Placing placing;
+  PictureBox box;  ///< all that it has, of which the drawing may have a part only
+  Placing placing{};
   std::vector<PictureFace> faces{};
   /// It stands in the corner of another one: without caption and bar.
   bool is_inset = false;
@@ -191,7 +192,7 @@ double caption_height_px(std::span<const PicturePanel> panels, double width_px) 
 
 /// Writes a caption below its panel; a long word in small letters.
 PictureGroup caption(const PlacedPanel& placed, const PictureTheme& theme) {
-  const PictureBox& box = placed.placing.box;
+  const PictureBox& box = placed.box;
   PictureGroup group;
   double y = box.top + box.height + kCaptionText_px + 4;
   for (const std::string& text : lines_of(placed.panel->caption, box.width)) {
@@ -217,7 +218,8 @@ Issue picture_issue(Code code, std::string sentence) {
 /// than the panel's half.
 std::optional<PlacedPanel> inset_of(const PlacedPanel& placed, double dpi) {
   constexpr double kInch_m = 0.0254, kRoom_px = 6;
-  PlacedPanel inset{.panel = placed.panel, .placing = placed.placing, .is_inset = true};
+  PlacedPanel inset{
+      .panel = placed.panel, .box = placed.box, .placing = placed.placing, .is_inset = true};
   inset.placing.pixels_per_m = dpi / kInch_m / placed.panel->map_scale;
   const auto [width_m, height_m] = placed.placing.size_m;
   inset.placing.box = {placed.placing.box.left, placed.placing.box.top,
@@ -277,8 +279,9 @@ Checked<std::vector<PlacedPanel>> placed_panels(std::span<const PicturePanel> pa
                                                      "clockwise from north",
                                                      options.azimuth_deg))}};
     cameras.push_back(*camera);
-    placed.push_back(
-        {.panel = &panels[i], .placing = placing_in(panels[i].mesh, *camera, boxes[i], origin)});
+    placed.push_back({.panel = &panels[i],
+                      .box = boxes[i],
+                      .placing = placing_in(panels[i].mesh, *camera, boxes[i], origin)});
   }
   share_frames(placed);
   if (options.map_dpi > 0) make_room_for_insets(placed, cameras, options.map_dpi);

@@ -173,6 +173,18 @@ TEST_SUITE("io") {
     CHECK(group(plain, "b_garage3") != group(faded, "b_garage3"));
   }
 
+  TEST_CASE("a caption takes no more lines where its panel makes room for a drawing at map size") {
+    const auto lines = [](double map_dpi) {
+      const PicturePanel panel{.mesh = boxes(), .caption = "one two three", .map_scale = 500};
+      return occurrences(*picture({panel}, PictureFormat::svg,
+                                  {.width_px = 160, .has_legend = false, .map_dpi = map_dpi})
+                              .value,
+                         "<text");
+    };
+    CHECK(lines(0) == 1);
+    CHECK(lines(60) == 1);
+  }
+
   TEST_CASE("backs of a part of a closed body are not seen where a panel says so") {
     PicturePanel panel{.mesh = boxes()};
     panel.mesh.polygons.resize(5);  // of the first box: open, as of a part alone
