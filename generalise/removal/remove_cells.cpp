@@ -160,6 +160,7 @@ class CellRemover {
         complex_(validator.complex ? validator.complex
                                    : std::make_shared<std::optional<CellComplex>>()),
         footprint_m2_(measures_of(remainder.solid).footprint_m2),
+        vertices_(vertices_of(segmentation, options.tolerances)),
         polygons_around_(solid, options.tolerances.weld_m),
         named_(detail::polygons_named(solid)) {
     for (const FeatureId id : remainder.removed)
@@ -357,7 +358,8 @@ class CellRemover {
     const auto before = fates_of(base_gone_), after = fates_of(all);
     std::vector<CellId> leaves = cells_with(after);
     std::erase_if(leaves, [&](CellId cell) { return fate_of(cell, before).has_value(); });
-    auto made = detail::take_out(base_, segmentation_, leaves, options_.tolerances, work_);
+    auto made = detail::take_out(base_, segmentation_, vertices_, leaves,
+                                 options_.tolerances.weld_m, work_);
     if (!made) return std::nullopt;
     const Ids gone = with_what_sits_on(segmentation_, all);
     fault = fault_of(*made, gone, options_.tolerances, [&] {
@@ -383,8 +385,7 @@ class CellRemover {
     // building in a few of them.
     if (made) return made;
     if (is_complex_closed() && lacks_what_stays(draft.numbers, names_of_faces(), gone)) return made;
-    const auto body =
-        body_without(solid_, segmentation_, cells_with(fates), options_.tolerances, work_);
+    const auto body = body_without(solid_, segmentation_, vertices_, cells_with(fates), work_);
     if (!body) return std::nullopt;
     FaceNames names(*body, polygons_around_, segmentation_);
     return solid_of(draft_of(*body, {CellId{0}}), gone, names, fault);
@@ -556,6 +557,7 @@ class CellRemover {
   int pieces_ = 0;                                       ///< of the building, by its cells
   bool has_fallen_apart_ = false;
   double footprint_m2_;
+  VertexPool vertices_;  ///< of the segmentation
   PolygonsAround polygons_around_;
   std::set<int> named_;                        ///< input polygons, by the solid
   std::optional<FaceNames> names_of_faces_{};  ///< of the complex

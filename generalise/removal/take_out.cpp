@@ -144,14 +144,14 @@ class SolidOfFaces {
 }  // namespace
 
 std::optional<Solid> take_out(const Solid& solid, const Segmentation& segmentation,
-                              std::span<const CellId> leaves, const Tolerances& tolerances,
-                              Work& work) {
-  const auto complex = body_without(solid, segmentation, leaves, tolerances, work);
+                              const VertexPool& vertices, std::span<const CellId> leaves,
+                              double weld_m, Work& work) {
+  const auto complex = body_without(solid, segmentation, vertices, leaves, work);
   if (!complex) return std::nullopt;
   Solid made = SolidOfFaces(solid, segmentation, *complex).run();
   if (made.facets.empty() || !is_closed(made) || volume_m3(made) <= 0 ||
       doubled_edges_of(made) > doubled_edges_of(solid) ||
-      slivers_of(made, tolerances.weld_m) > slivers_of(solid, tolerances.weld_m))
+      slivers_of(made, weld_m) > slivers_of(solid, weld_m))
     return std::nullopt;
   return made;
 }

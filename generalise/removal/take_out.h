@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernel/base/work.h"
+#include "kernel/segment/complex/vertex_pool.h"
 #include "model/segmentation.h"
 #include "model/solid.h"
-#include "model/tolerances.h"
 
 #include <optional>
 #include <span>
@@ -18,7 +18,7 @@ namespace oriel::detail {
 /// than before, or if more facets are narrower than weld_m: where vertices lie off their planes
 /// slivers come up, and the pieces have to be solidified anew.
 std::optional<Solid> take_out(const Solid& solid, const Segmentation& segmentation,
-                              std::span<const CellId> leaves, const Tolerances& tolerances,
-                              Work& work);
+                              const VertexPool& vertices, std::span<const CellId> leaves,
+                              double weld_m, Work& work);
 
 }  // namespace oriel::detail

@@ -24,7 +24,7 @@ constexpr int kBehind = 0;
 /// Bodies with the sign with which each counts, the solid first, on common planes and vertices.
 struct SignedBodies {
   std::vector<Plane> planes;
-  std::vector<Vertex> vertices;
+  VertexPool pool;
   std::vector<std::vector<Facet>> facets;  ///< by body
   std::vector<int> signs;
 };
@@ -36,12 +36,12 @@ void move_numbers(Facet& facet, int planes, int vertices) {
 }
 
 SignedBodies signed_bodies(const Solid& solid, const Segmentation& segmentation,
-                           std::span<const CellId> leaves) {
-  SignedBodies bodies{segmentation.planes, segmentation.vertices, {solid.facets}, {1}};
+                           const VertexPool& pool, std::span<const CellId> leaves) {
+  SignedBodies bodies{segmentation.planes, pool, {solid.facets}, {1}};
   const int planes = static_cast<int>(bodies.planes.size());
-  const int vertices = static_cast<int>(bodies.vertices.size());
+  const int vertices = static_cast<int>(pool.vertices().size());
   bodies.planes.insert(bodies.planes.end(), solid.planes.begin(), solid.planes.end());
-  bodies.vertices.insert(bodies.vertices.end(), solid.vertices.begin(), solid.vertices.end());
+  bodies.pool.append(solid.vertices);
   for (Facet& facet : bodies.facets[0]) move_numbers(facet, planes, vertices);
   for (const CellId leaf : leaves) {
     bodies.facets.push_back(segmentation.cells[leaf.index()].facets);
@@ -82,10 +82,10 @@ std::vector<SheetPiece> sheet_pieces_of(std::vector<Chord> chords, Vec3 normal, 
 
 class BodySummer {
  public:
-  BodySummer(SignedBodies bodies, const Tolerances& tolerances)
+  explicit BodySummer(SignedBodies bodies)
       : planes_(std::move(bodies.planes)),
         signs_(std::move(bodies.signs)),
-        pool_(std::move(bodies.vertices), tolerances.weld_m * kBodyReach),
+        pool_(std::move(bodies.pool)),
         sheets_(detail::sheets_of(planes_)),
         facets_(detail::whole_outlines(std::move(bodies.facets), sheets_, pool_)) {}
 
@@ -155,9 +155,13 @@ class BodySummer {
 }  // namespace
 
 std::optional<CellComplex> body_without(const Solid& solid, const Segmentation& segmentation,
-                                        std::span<const CellId> leaves,
-                                        const Tolerances& tolerances, Work& work) {
-  return BodySummer(signed_bodies(solid, segmentation, leaves), tolerances).run(work);
+                                        const VertexPool& vertices, std::span<const CellId> leaves,
+                                        Work& work) {
+  return BodySummer(signed_bodies(solid, segmentation, vertices, leaves)).run(work);
+}
+
+VertexPool vertices_of(const Segmentation& segmentation, const Tolerances& tolerances) {
+  return {segmentation.vertices, tolerances.weld_m * kBodyReach};
 }
 
 }  // namespace oriel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/work.h"
+#include "kernel/segment/complex/vertex_pool.h"
 #include "model/cell_complex.h"
 #include "model/segmentation.h"
 #include "model/solid.h"
@@ -23,10 +24,14 @@ namespace oriel {
 /// its faces in the body.
 ///
 /// `solid` may be another one of the same planes, such as what remove_features left of it. Time is
-/// that of the solid's facets and of the sheets that the leaves have facets in. `tolerances` as for
-/// cell_complex(). Nothing once `work` is used up.
+/// that of the solid's facets and of the sheets that the leaves have facets in. `vertices` are
+/// vertices_of() the segmentation. Nothing once `work` is used up.
 std::optional<CellComplex> body_without(const Solid& solid, const Segmentation& segmentation,
-                                        std::span<const CellId> leaves,
-                                        const Tolerances& tolerances, Work& work);
+                                        const VertexPool& vertices, std::span<const CellId> leaves,
+                                        Work& work);
+
+/// Returns the vertices of a segmentation, as for cell_complex(), from which body_without() begins
+/// each time.
+VertexPool vertices_of(const Segmentation& segmentation, const Tolerances& tolerances);
 
 }  // namespace oriel

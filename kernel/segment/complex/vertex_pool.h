@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
 namespace oriel {
@@ -18,12 +18,15 @@ class VertexPool {
   /// Vertices keep their indices; one near an earlier one is represented by it.
   VertexPool(std::vector<Vertex> vertices, double reach_m);
 
+  /// Adds vertices with the next indices, each represented as in the constructor.
+  void append(std::span<const Vertex> vertices);
+
   [[nodiscard]] double reach_m() const { return reach_m_; }
   [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
   [[nodiscard]] Vec3 at(int vertex) const {
     return vertices_[static_cast<std::size_t>(vertex)].point;
   }
-  /// The vertex that stands for this one of the constructor's.
+  /// The vertex that stands for this one of the constructor's, and of those appended.
   [[nodiscard]] int represented_by(int vertex) const {
     return represented_by_[static_cast<std::size_t>(vertex)];
   }
@@ -40,17 +43,20 @@ class VertexPool {
   std::vector<Vertex> take() { return std::move(vertices_); }
 
  private:
+  /// A cube in space.
   using Bucket = std::array<std::int64_t, 3>;
-  struct BucketHash {
-    std::size_t operator()(const Bucket& bucket) const;
-  };
   [[nodiscard]] Bucket bucket_of(Vec3 point) const;
+  /// Some buckets share a slot.
+  [[nodiscard]] std::size_t slot_of(const Bucket& bucket) const;
+  void enter(int vertex);
+  /// Makes room for so many vertices, and enters those that are there anew.
+  void widen(std::size_t vertices);
 
   std::vector<Vertex> vertices_;
   std::vector<int> represented_by_;
   double reach_m_;
-  /// Cubes in space, with the vertices in them that stand for themselves.
-  std::unordered_map<Bucket, std::vector<int>, BucketHash> buckets_;
+  /// By slot the last vertex in it that stands for itself, and by vertex the one before; -1: none.
+  std::vector<int> last_in_slot_{-1}, before_;
 };
 
 }  // namespace oriel

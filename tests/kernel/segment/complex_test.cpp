@@ -236,6 +236,21 @@ TEST_SUITE("kernel/segment") {
     CHECK(close > all * 95 / 100);
   }
 
+  TEST_CASE("vertices that are appended to a pool are those of one made of all") {
+    std::vector<Vertex> all;
+    for (int i = 0; i < 600; ++i) {
+      const double x = 0.0007 * ((i * 37) % 101), y = 0.0005 * ((i * 53) % 97);
+      all.push_back({{x, y, 0.0003 * (i % 7)}, false});
+    }
+    const VertexPool whole(all, 0.001);
+    for (const std::size_t first : {0U, 1U, 17U, 599U}) {
+      VertexPool pool({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first)}, 0.001);
+      pool.append(std::span(all).subspan(first));
+      for (int v = 0; v < std::ssize(all); ++v)
+        CHECK(pool.represented_by(v) == whole.represented_by(v));
+    }
+  }
+
   TEST_CASE("edges that cross where both end are not cut there round after round") {
     const PlaneAxes axes({0, 0, 1});
     VertexPool pool({}, 0.001);

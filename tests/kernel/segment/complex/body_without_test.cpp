@@ -26,7 +26,9 @@ constexpr std::array kBody{CellId{0}};
 /// What is left without the leaves of a feature.
 CellComplex left_of(const Segmented& s, FeatureId feature) {
   Work work;
-  return body_without(s.solid, s.segmentation, cells_of(s.segmentation, feature), {}, work).value();
+  return body_without(s.solid, s.segmentation, vertices_of(s.segmentation, {}),
+                      cells_of(s.segmentation, feature), work)
+      .value();
 }
 
 TEST_SUITE("kernel/segment") {
