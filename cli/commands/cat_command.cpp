@@ -1,7 +1,7 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/batch/inputs/input_files.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "cli/streams/stream_lines.h"
 #include "io/files/output_file.h"
 

@@ -2,7 +2,7 @@
 #include "cli/batch/inputs/input_files.h"
 #include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "cli/output/named_files.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"

@@ -3,7 +3,7 @@
 #include "cli/batch/inputs/input_files.h"
 #include "cli/batch/inputs/neighbours.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "cli/output/energy_tables.h"
 #include "cli/output/label_outputs.h"
 #include "cli/terminal/option_values.h"

@@ -1,7 +1,7 @@
 #include "cli/batch/arena.h"
 #include "cli/batch/inputs/input_files.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "cli/output/named_files.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"

@@ -5,7 +5,7 @@
 #include "cli/batch/rules_choice.h"
 #include "cli/batch/run_options.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/tiles/tiles_page.h"

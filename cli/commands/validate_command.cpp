@@ -1,6 +1,6 @@
 #include "cli/batch/inputs/input_files.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "cli/output/named_files.h"
 #include "cli/output/sarif.h"
 #include "cli/terminal/file_advice.h"

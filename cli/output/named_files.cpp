@@ -2,7 +2,7 @@
 
 #include "cli/batch/inputs/neighbours.h"
 #include "cli/batch/run_options.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "io/files/partial_files.h"
 
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "cli/batch/arena.h"
 #include "cli/batch/batch_runner.h"
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "cli/output/output_sink.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"

@@ -1,4 +1,4 @@
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 
 #include "cli/batch/batch_command.h"
 #include "cli/output/column_choice.h"

@@ -1,7 +1,7 @@
-#include "cli/commands/view_picture.h"
+#include "cli/commands/view/view_picture.h"
 
-#include "cli/commands/options.h"
-#include "cli/commands/target_options.h"
+#include "cli/options/options.h"
+#include "cli/options/target_options.h"
 #include "cli/terminal/logging.h"
 #include "kernel/base/text/counted.h"
 #include "oriel/generalise.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/commands/exhibit.h"
-#include "cli/commands/feature_choice.h"
+#include "cli/commands/view/exhibit.h"
+#include "cli/options/feature_choice.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/logging.h"
 #include "oriel/picture.h"

@@ -1,4 +1,4 @@
-#include "cli/commands/feature_choice.h"
+#include "cli/options/feature_choice.h"
 
 #include "kernel/base/text/counted.h"
 #include "kernel/base/text/printable.h"

@@ -1,6 +1,6 @@
-#include "cli/commands/target_options.h"
+#include "cli/options/target_options.h"
 
-#include "cli/commands/options.h"
+#include "cli/options/options.h"
 #include "oriel/rules.h"
 
 #include <algorithm>
