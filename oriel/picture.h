@@ -10,6 +10,7 @@
 #include "oriel/label.h"
 #include "oriel/result.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,22 @@ namespace oriel {
 void append_labelled(PicturePanel& panel, const Building& building, const PipelineResult& result,
                      const RuleBase& rules, const LabelOptions& options);
 
+/// How many labels agree with a truth.
+struct ComparedCounts {
+  std::size_t right = 0, wrong = 0, missed = 0;
+  /// Those of the missed objects that have no polygon in the building, so that none is marked.
+  std::size_t without_polygons = 0;
+
+  ComparedCounts& operator+=(const ComparedCounts& other);
+  /// "20 right, 1 wrong, 2 missed (1 of them without polygons)".
+  [[nodiscard]] std::string text() const;
+};
+
 /// The same, with marks of what is right, wrong and missed by a truth (match_features()); what was
-/// missed is shown as the truth names it. Returns "20 right, 1 wrong, 2 missed".
-std::string append_compared(PicturePanel& panel, const Building& building,
-                            const PipelineResult& result, const RuleBase& rules,
-                            const LabelOptions& options, const GroundTruth& truth);
+/// missed is shown as the truth names it.
+ComparedCounts append_compared(PicturePanel& panel, const Building& building,
+                               const PipelineResult& result, const RuleBase& rules,
+                               const LabelOptions& options, const GroundTruth& truth);
 
 /// Makes two panels of a feature of a building that is_done(): in its building, and alone with what
 /// is marked there: what it is part of, and what is in it, around, beside and above it. Their

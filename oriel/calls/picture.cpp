@@ -51,8 +51,8 @@ bool is_same(const PlacedPart& p, const PlacedPart& q) {
          length(p.box.max - q.box.max) < kSamePlace_m;
 }
 
-/// Makes polygons a part of their own.
-void name_part(const std::vector<int>& polygons, const std::string& id, const std::string& label,
+/// Makes polygons a part of their own. False if the building has none of them.
+bool name_part(const std::vector<int>& polygons, const std::string& id, const std::string& label,
                LabelledBuilding& labelled) {
   std::map<int, int> named;  // by the surface that a polygon had
   for (const int polygon : polygons) {
@@ -67,6 +67,7 @@ void name_part(const std::vector<int>& polygons, const std::string& id, const st
     }
     surface = found->second;
   }
+  return !named.empty();
 }
 
 std::string name_of_truth(const ExpectedObject& object) { return "truth " + object.id; }
@@ -171,41 +172,58 @@ void append_labelled(PicturePanel& panel, const Building& building, const Pipeli
   append_building(panel.mesh, building, labelled(building, result, rules, options));
 }
 
-std::string append_compared(PicturePanel& panel, const Building& building,
-                            const PipelineResult& result, const RuleBase& rules,
-                            const LabelOptions& options, const GroundTruth& truth) {
+ComparedCounts& ComparedCounts::operator+=(const ComparedCounts& other) {
+  right += other.right;
+  wrong += other.wrong;
+  missed += other.missed;
+  without_polygons += other.without_polygons;
+  return *this;
+}
+
+std::string ComparedCounts::text() const {
+  std::string text = fmt::format("{} right, {} wrong, {} missed", right, wrong, missed);
+  if (without_polygons > 0) text += fmt::format(" ({} of them without polygons)", without_polygons);
+  return text;
+}
+
+ComparedCounts append_compared(PicturePanel& panel, const Building& building,
+                               const PipelineResult& result, const RuleBase& rules,
+                               const LabelOptions& options, const GroundTruth& truth) {
   LabelledBuilding shown = labelled(building, result, rules, options);
   LabelsAndTruth all;
   add(feature_records(building, result), all);
   add(truth, all);
   std::map<std::string, const TruthObject*> objects;
   for (const TruthObject& object : truth.objects) objects[object.id] = &object;
-  std::map<PictureMark, int> counts;
+  ComparedCounts counts;
   for (const ObjectMatch& match : match_features(all)) {
     const auto mark = [&](const std::string& id, PictureMark as) {
       panel.marks[{building.id, id}] = as;
-      ++counts[as];
     };
     switch (match.outcome) {
       case MatchOutcome::right:
         mark(match.prediction->id, PictureMark::right);
+        ++counts.right;
         break;
       case MatchOutcome::wrong_class:
       case MatchOutcome::nothing_there:
         mark(match.prediction->id, PictureMark::wrong);
+        ++counts.wrong;
         break;
       case MatchOutcome::not_found:
-        name_part(objects.at(match.truth->id)->faces, name_of_truth(*match.truth),
-                  match.truth->label, shown);
-        mark(name_of_truth(*match.truth), PictureMark::missed);
+        ++counts.missed;
+        if (name_part(objects.at(match.truth->id)->faces, name_of_truth(*match.truth),
+                      match.truth->label, shown))
+          mark(name_of_truth(*match.truth), PictureMark::missed);
+        else
+          ++counts.without_polygons;
         break;
       case MatchOutcome::left_out:
         break;
     }
   }
   append_building(panel.mesh, building, shown);
-  return fmt::format("{} right, {} wrong, {} missed", counts[PictureMark::right],
-                     counts[PictureMark::wrong], counts[PictureMark::missed]);
+  return counts;
 }
 
 std::vector<PicturePanel> explained_panels(const Building& building, const PipelineResult& result,

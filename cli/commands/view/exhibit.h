@@ -26,8 +26,8 @@ class Exhibit {
   /// Adds one of them, with the labels that its file has; null: those of `result`.
   virtual void add_after(const Building& building, const PipelineResult& result,
                          const CarriedLabels* carried) = 0;
-  /// Throws CLI::ValidationError where what was asked for is not among the buildings of a run that
-  /// ended with `code`.
+  /// Throws CLI::ValidationError or InputError where what was asked for is not among the buildings
+  /// of a run that ended with `code`.
   virtual void check(ExitCode /*code*/) const {}
   /// Makes the bytes of the file. Throws InputError.
   virtual std::string made() = 0;

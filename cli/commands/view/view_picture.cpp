@@ -4,6 +4,7 @@
 #include "cli/options/target_options.h"
 #include "cli/terminal/logging.h"
 #include "kernel/base/text/counted.h"
+#include "kernel/base/text/printable.h"
 #include "oriel/generalise.h"
 
 #include <algorithm>
@@ -217,7 +218,13 @@ ExitCode read_truth(PictureArguments& arguments, Report& report) {
     report.add(truths.issues);
     if (has_errors(truths.issues)) code = ExitCode::input;
     if (!truths.value) continue;
-    for (GroundTruth& truth : *truths.value) arguments.truths[truth.building] = std::move(truth);
+    for (GroundTruth& truth : *truths.value) {
+      std::string building = truth.building;
+      if (arguments.truths.try_emplace(building, std::move(truth)).second) continue;
+      throw CLI::ValidationError(
+          "--compare", fmt::format("the building '{}' has two truths; the second is in {}",
+                                   printable(building), path));
+    }
   }
   return code;
 }
@@ -252,13 +259,17 @@ void PictureExhibit::add_to(PicturePanel& panel, const Building& building,
                             const PipelineResult& result) {
   const auto truth = arguments_.truths.find(building.id);
   std::string sentence = "without truth";
-  if (truth != arguments_.truths.end())
-    sentence = append_compared(panel, building, result, rules_, options_, truth->second);
-  else
+  if (truth == arguments_.truths.end()) {
     append_labelled(panel, building, result, rules_, options_);
-  if (arguments_.truth_files.empty()) return;
-  without_truth_ += truth == arguments_.truths.end() ? 1 : 0;
-  if (!panel.caption.empty()) panel.caption += '\n' + sentence;
+    ++without_truth_;
+  } else {
+    const ComparedCounts counts =
+        append_compared(panel, building, result, rules_, options_, truth->second);
+    sentence = counts.text();
+    compared_ += counts;
+    ++with_truth_;
+  }
+  if (!arguments_.truth_files.empty() && !panel.caption.empty()) panel.caption += '\n' + sentence;
 }
 
 void PictureExhibit::add_explained(const Building& building, const PipelineResult& result) {
@@ -288,13 +299,20 @@ void PictureExhibit::add_after(const Building& building, const PipelineResult& r
 
 void PictureExhibit::check(ExitCode code) const {
   if (!arguments_.explained.empty()) choice_.check(code);
+  if (arguments_.truth_files.empty() || with_truth_ > 0) return;
+  Issue none;
+  none.code = Code::E128;
+  none.sentence = "has none of the buildings that are shown";
+  none.place.file = arguments_.truth_files.front();
+  throw InputError(std::move(none));
 }
 
 std::string PictureExhibit::made() {
   if (left_out_ > 0)
     run_log().info("--grid {} has no room for {}", arguments_.grid,
                    counted(left_out_, "more building"));
-  if (without_truth_ > 0)
+  if (with_truth_ > 0) run_log().info("compared with the truth: {}", compared_.text());
+  if (with_truth_ > 0 && without_truth_ > 0)
     run_log().info("{} not in the truth: nothing is marked there",
                    counted(without_truth_, "building is", "buildings are"));
   PictureOptions& options = arguments_.options;

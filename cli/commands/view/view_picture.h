@@ -87,7 +87,8 @@ class PictureExhibit final : public Exhibit {
   std::string before_;
   std::vector<PicturePanel> panels_;
   FeatureChoice choice_;
-  std::size_t left_out_ = 0, without_truth_ = 0;
+  ComparedCounts compared_;
+  std::size_t left_out_ = 0, with_truth_ = 0, without_truth_ = 0;
   bool has_after_ = false;
 };
 

@@ -125,10 +125,37 @@ TEST_SUITE("cli") {
         run({"view", kHouse, "--compare", other, "--grid", "1x1", "-o", folder / "b.svg"}).exit ==
         0);
     CHECK(bytes_of(folder / "b.svg").find(">21 right, 3 wrong, 0 missed<") != std::string::npos);
-    const Outcome none = run({"view", sample("hip"), "--compare", other, "-o", folder / "c.svg"});
-    CHECK(none.exit == 0);
-    CHECK(none.says("not in the truth"));
+    const Outcome some =
+        run({"view", kHouse, sample("hip"), "--compare", other, "-o", folder / "c.svg"});
+    CHECK(some.exit == 0);
+    CHECK(some.says("compared with the truth: 21 right, 3 wrong, 0 missed"));
+    CHECK(some.says("1 building is not in the truth"));
+    const Outcome none = run({"view", sample("hip"), "--compare", other, "-o", folder / "d.svg"});
+    CHECK(none.exit == 5);
+    CHECK(none.says("E128"));
+    CHECK(!std::filesystem::exists(folder / "d.svg"));
+    const Outcome twice =
+        run({"view", kHouse, "--compare", other, "--compare", kTruth, "-o", folder / "d.svg"});
+    CHECK(twice.exit == 2);
+    CHECK(twice.says("has two truths"));
     CHECK(run({"view", kHouse, "--compare", kHouse, "-o", folder / "c.svg"}).exit == 5);
+  }
+
+  TEST_CASE("objects of a truth that have no polygons are counted and said") {
+    const Folder folder;
+    auto truth = nlohmann::json::parse(bytes_of(kTruth));
+    auto object = truth["objects"][0];
+    object["id"] = "tower";
+    object["class"] = "chimney";
+    object["aabb"] = {100, 100, 0, 101, 101, 9};
+    object.erase("feature_aabb");
+    object["faces"] = {99999};
+    truth["objects"].push_back(object);
+    const std::string other = folder.write("other.truth.json", truth.dump());
+    const Outcome outcome = run({"view", kHouse, "--compare", other, "-o", folder / "a.svg"});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("24 right, 0 wrong, 1 missed (1 of them without polygons)"));
+    CHECK(bytes_of(folder / "a.svg").find(">missed ") == std::string::npos);
   }
 
   TEST_CASE("a PDF has a page for each sheet so that no building is left out") {
