@@ -1,11 +1,10 @@
 #include "generalise/invariants/stays.h"
+#include "generalise/removal/cell_contacts.h"
+#include "generalise/removal/polygon_names.h"
 #include "generalise/removal/removal.h"
 #include "generalise/removal/take_out.h"
 #include "kernel/base/indexed_vector.h"
-#include "kernel/geometry/disjoint_sets.h"
-#include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
-#include "kernel/geometry/planar.h"
 #include "kernel/segment/complex/body_without.h"
 #include "kernel/segment/complex/cell_complex.h"
 #include "kernel/solidify/solidify.h"
@@ -21,7 +20,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -45,6 +43,9 @@ constexpr std::int64_t kStepsPerAttempt = 32;
 /// What it takes to see that cells would not hang together.
 constexpr std::int64_t kStepsPerLook = 1;
 
+using detail::CellContacts;
+using detail::FaceNames;
+using detail::PolygonsAround;
 using Ids = std::vector<FeatureId>;
 
 int lumps_of(const Solid& solid) {
@@ -52,100 +53,6 @@ int lumps_of(const Solid& solid) {
   for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
   return lumps;
 }
-
-/// The same for parallel planes.
-std::array<std::int64_t, 3> direction_of(const Plane& plane) {
-  return std::max(plane.coefficients, exact::opposite(plane).coefficients);
-}
-
-/// Finds again which input polygons a figure lies in. Refers to the solid, which must outlive it.
-class PolygonsAround {
- public:
-  /// Points up to `weld_m` off a plane are in it, as vertices may be.
-  PolygonsAround(const Solid& solid, double weld_m) : solid_(solid), weld_m_(weld_m) {
-    for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
-      facets_along_[direction_of(solid.planes[solid.facets[f.index()].plane.index()])].push_back(f);
-  }
-
-  /// The input polygons of the facets of the solid that a figure in a plane lies in, whichever way
-  /// they look; none if it is new. The plane is exact: those of a segmentation are its solid's.
-  [[nodiscard]] std::set<int> of(const std::vector<Outline>& shape, const Plane& plane) const {
-    const auto near = facets_along_.find(direction_of(plane));
-    if (near == facets_along_.end()) return {};
-    const auto point = interior_point(shape, plane.normal);
-    if (!point) return {};
-    std::set<int> polygons;
-    for (const FacetId f : near->second) {
-      const Facet& facet = solid_.facets[f.index()];
-      const Plane& its = solid_.planes[facet.plane.index()];
-      const bool is_same = its.coefficients == plane.coefficients ? its.offset == plane.offset
-                                                                  : its.offset == -plane.offset;
-      const bool is_in_plane =
-          is_same || std::abs(dot(its.normal, *point) - its.offset_m) <= weld_m_;
-      if (!is_in_plane) continue;
-      if (contains(outlines_of(solid_.vertices, facet.loops), its.normal, *point))
-        polygons.insert(facet.polygons.begin(), facet.polygons.end());
-    }
-    return polygons;
-  }
-
- private:
-  const Solid& solid_;
-  double weld_m_;
-  std::map<std::array<std::int64_t, 3>, std::vector<FacetId>> facets_along_;  ///< by direction
-};
-
-/// Which cells of a complex hang together, by faces or edges.
-class CellContacts {
- public:
-  CellContacts(const CellComplex& complex, std::size_t cells) : cells_(cells) {
-    std::vector<std::tuple<int, int, CellId>> at_edge;
-    for (const Face& face : complex.faces())
-      for (const Loop& loop : face.loops)
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-          const auto [low, high] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
-          for (const CellId cell : {face.behind, face.front})
-            if (cell.is_valid()) at_edge.emplace_back(low, high, cell);
-        }
-    std::ranges::sort(at_edge);
-    at_edge.erase(std::unique(at_edge.begin(), at_edge.end()), at_edge.end());
-    for (std::size_t i = 0; i < at_edge.size();) {
-      const auto [low, high, first] = at_edge[i];
-      std::vector<CellId> there;
-      for (; i < at_edge.size() &&
-             std::tuple(std::get<0>(at_edge[i]), std::get<1>(at_edge[i])) == std::tuple(low, high);
-           ++i)
-        there.push_back(std::get<2>(at_edge[i]));
-      touching_.push_back(std::move(there));
-    }
-    std::ranges::sort(touching_);
-    touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
-  }
-
-  /// In how many pieces some cells are; none of them counts as several.
-  [[nodiscard]] int pieces_of(const std::vector<CellId>& some) const {
-    std::vector<char> is_there(cells_, 0), is_met(cells_, 0);
-    for (const CellId cell : some) is_there[cell.index()] = 1;
-    DisjointSets sets(cells_);
-    for (const std::vector<CellId>& touching : touching_) {
-      CellId before;
-      for (const CellId cell : touching) {
-        if (is_there[cell.index()] == 0) continue;
-        is_met[cell.index()] = 1;
-        if (before.is_valid()) sets.unite(before.value, cell.value);
-        before = cell;
-      }
-    }
-    int pieces = 0;
-    for (std::size_t i = 0; i < cells_; ++i)
-      pieces += is_met[i] != 0 && sets.find(static_cast<int>(i)) == static_cast<int>(i) ? 1 : 0;
-    return pieces;
-  }
-
- private:
-  std::size_t cells_;
-  std::vector<std::vector<CellId>> touching_;  ///< at one edge, each set of them once
-};
 
 class CellRemover {
  public:
@@ -390,29 +297,6 @@ class CellRemover {
     FaceNames names(*body, polygons_around_, segmentation_);
     return solid_of(draft_of(*body, {CellId{0}}), gone, names, fault);
   }
-
-  /// The input polygons that faces of a complex lie in, each looked for once.
-  class FaceNames {
-   public:
-    FaceNames(const CellComplex& complex, const PolygonsAround& around,
-              const Segmentation& segmentation)
-        : complex_(complex), around_(around), segmentation_(segmentation) {}
-
-    const std::vector<int>& of(FaceId id) {
-      const auto [entry, is_new] = known_.try_emplace(id);
-      if (!is_new) return entry->second;
-      const Face& face = complex_.face(id);
-      const auto found = around_.of(outlines_of(complex_.vertices(), face.loops),
-                                    segmentation_.planes[face.plane.index()]);
-      return entry->second = {found.begin(), found.end()};
-    }
-
-   private:
-    const CellComplex& complex_;
-    const PolygonsAround& around_;
-    const Segmentation& segmentation_;
-    std::map<FaceId, std::vector<int>> known_;
-  };
 
   /// A solid of these faces that does, with vertices as near to each other as that takes.
   std::optional<Solid> solid_of(const Draft& draft, const Ids& gone, FaceNames& names,
