@@ -52,7 +52,7 @@ endfunction()
 set(ORIEL_COMMANDS_WITHOUT_THREADS cat collect completion diff experiment explain learn merge rules score split studio tiles validate view)
 list(JOIN ORIEL_COMMANDS_WITHOUT_THREADS "|" commands)
 set(ORIEL_NOT_OF_THREADS
-  "/cli/(completion|commands/rules)/" left_out tiles_page "commands/(${commands})_"
+  "/cli/(completion|commands/rules|commands/view)/" left_out tiles_page "commands/(${commands})_"
   "/oriel/./calls/(learn|stored_samples)[.]cpp")
 function(oriel_leave_out_of_threads list)
   foreach(pattern ${ORIEL_NOT_OF_THREADS})
