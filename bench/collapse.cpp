@@ -11,6 +11,7 @@
 #include "kernel/base/index.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
+#include "oriel/drawing/targets.h"
 #include "oriel/label.h"
 
 #include <algorithm>
@@ -149,7 +150,7 @@ void compare(const Building& building, const RuleBase& rules, double scale, Rows
   const Plan asked = plan(rules, table, graph, labelled.interpretation, scale);
   Checked<Generalised> made;
   const double ours_ms = bench::cpu_ms_of(kCalls, [&] {
-    made = generalise(solid, *labelled.segmentation, table, labelled.interpretation, asked);
+    made = generalise(redraw_context(building, labelled, labelled.output), asked);
   });
   if (!made.value) return;
   const Mesh after = to_mesh(made.value->solid);

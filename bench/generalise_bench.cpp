@@ -7,6 +7,7 @@
 #include "generalise/series/scale_series.h"
 #include "generalise/series/series_levels.h"
 #include "interpret/plan/plan.h"
+#include "oriel/drawing/targets.h"
 #include "oriel/label.h"
 
 #include <cmath>
@@ -26,8 +27,8 @@ const RuleBase& residential() {
 
 const std::vector<double> kScales{500, 1000, 1500, 2000, 2500, 3500, 5000, 10000};
 
-/// A generated house of about so many windows, labelled.
-struct LabelledHouse {
+/// A generated house of about so many windows, labelled, and what is asked of it.
+struct LabelledHouse : SeriesOrder {
   Building building;
   PipelineResult result;
 
@@ -39,34 +40,26 @@ struct LabelledHouse {
     result = label(building, residential());
   }
 
-  [[nodiscard]] Plan plan_at(double scale) const {
+  [[nodiscard]] Plan plan_at(double scale) const override {
     return plan(residential(), result.description.table, result.description.graph,
                 result.interpretation, scale);
   }
 
   /// As the command asks for it without a profile.
-  [[nodiscard]] static Invariants invariants_at(double scale) {
+  [[nodiscard]] Invariants invariants_at(double scale) const override {
     Invariants invariants;
     invariants.least_edge_m = kGapOnMap_m * scale;
     return invariants;
   }
 
-  [[nodiscard]] Redrawn at_scale(double scale) const {
-    auto made = generalise(*result.solid, *result.segmentation, result.description.table,
-                           result.interpretation, plan_at(scale), {}, invariants_at(scale));
-    return redraw(building, result.output, *result.segmentation, result.description.table,
-                  result.interpretation, std::move(made.value.value()));
+  [[nodiscard]] RedrawContext context() const {
+    return redraw_context(building, result, result.output);
   }
 
-  [[nodiscard]] SeriesInput series_input() const {
-    return {building,
-            result.output,
-            *result.solid,
-            *result.segmentation,
-            result.description.table,
-            result.interpretation,
-            {},
-            invariants_at};
+  [[nodiscard]] Redrawn at_scale(double scale) const {
+    RedrawContext at = context();
+    at.invariants = invariants_at(scale);
+    return redraw(at, std::move(generalise(at, plan_at(scale)).value.value()));
   }
 };
 
@@ -92,15 +85,14 @@ void to_scale(benchmark::State& state) {
 
 void series_of_eight(benchmark::State& state) {
   const LabelledHouse house(state);
-  const SeriesInput input = house.series_input();
-  const PlanAt plan_at = [&](double scale) { return house.plan_at(scale); };
+  const RedrawContext context = house.context();
   const bool with_log = state.range(1) != 0;
   std::size_t operations = 0;
   const auto run = [&] {
-    const auto levels = series_levels(input, kScales, plan_at).value.value();
+    const auto levels = series_levels(context, house, kScales).value.value();
     if (!with_log) return levels.size();
-    const FiringScales firing(kScales, plan_bounds(residential()), plan_at);
-    return scale_series(input, levels, firing, on_millimetres).operations.size();
+    const FiringScales firing(kScales, plan_bounds(residential()), house);
+    return scale_series(context, house, levels, firing, on_millimetres).operations.size();
   };
   for (auto _ : state) operations = run();
   state.counters["peak_MB"] = megabytes(bench::peak_bytes_of([&] { operations = run(); }));

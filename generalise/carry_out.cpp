@@ -1,10 +1,10 @@
 #include "generalise/carry_out.h"
 
 #include "generalise/invariants/fineness.h"
-#include "generalise/invariants/stays.h"
 #include "generalise/removal/clear_edges.h"
-#include "generalise/removal/facets.h"
 #include "generalise/tasks.h"
+#include "interpret/score/significance.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/directions.h"
 
@@ -47,7 +47,7 @@ bool carries_its_parent(const Segmentation& segmentation, FeatureId id) {
 }
 
 /// Neither removed nor, with something around it, drawn anew, as a chimney that becomes a block.
-bool stays_as_it_was(const Segmentation& segmentation, FeatureId id, const CarriedOut& out) {
+bool stays_as_it_was(const Segmentation& segmentation, FeatureId id, const Generalised& out) {
   if (!id.is_valid() || std::ranges::binary_search(out.removed, id)) return false;
   for (; id.is_valid(); id = segmentation.features[id.index()].parent)
     if (std::ranges::binary_search(out.changed, id)) return false;
@@ -78,12 +78,12 @@ class UndoneSteps {
   explicit UndoneSteps(const Plan& plan) : plan_(plan) {}
 
   [[nodiscard]] bool contains(FeatureId id) const {
-    return std::ranges::find(undone_, id, &CarriedOut::Refused::feature) != undone_.end();
+    return std::ranges::find(undone_, id, &RefusedStep::feature) != undone_.end();
   }
   [[nodiscard]] std::size_t size() const { return undone_.size() + unfollowed_.size(); }
   [[nodiscard]] bool has_all() const { return undone_.size() == plan_.steps.size(); }
 
-  void add(CarriedOut::Refused step) { undone_.push_back(std::move(step)); }
+  void add(RefusedStep step) { undone_.push_back(std::move(step)); }
 
   /// What follows the openings of a step, and those that it pushes, is not drawn again. False if
   /// nothing follows them.
@@ -110,9 +110,9 @@ class UndoneSteps {
   }
 
   /// What was carried out, with the steps that were taken back among the refused.
-  [[nodiscard]] CarriedOut added_to(CarriedOut out) const {
+  [[nodiscard]] Generalised added_to(Generalised out) const {
     out.refused.insert(out.refused.end(), undone_.begin(), undone_.end());
-    std::ranges::stable_sort(out.refused, {}, &CarriedOut::Refused::feature);
+    std::ranges::stable_sort(out.refused, {}, &RefusedStep::feature);
     for (AlongFeature& one : out.along)
       for (const auto& [id, reason] : unfollowed_) {
         const auto step = std::ranges::find(plan_.steps, id, &Step::feature);
@@ -124,62 +124,73 @@ class UndoneSteps {
 
  private:
   const Plan& plan_;
-  std::vector<CarriedOut::Refused> undone_;
+  std::vector<RefusedStep> undone_;
   std::map<FeatureId, std::string> unfollowed_{};
 };
 
-/// Carries a plan out and takes steps back until nothing is violated.
-class InvariantEnforcer {
- public:
-  InvariantEnforcer(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                    const SegmentOptions& options, const Invariants& invariants,
-                    const Pieces& pieces)
-      : solid_(solid),
-        segmentation_(segmentation),
-        plan_(plan),
-        options_(options),
-        invariants_(invariants),
-        pieces_(pieces),
-        before_(measures_of(solid, invariants)),
-        validator_(invariants.validator),
-        undone_(plan) {
-    validator_.settled = invariants.settled;
-    validator_.work = invariants.work;
-    validator_.complex = std::make_shared<std::optional<CellComplex>>();
-    validator_.hindrances = std::make_shared<std::map<FeatureId, Hindrance>>();
-    validator_.violation_of = [this](const Solid& left) { return violation_by(left); };
-  }
+/// Features that may be pieces of something larger: a plinth, the eaves, a parapet.
+struct Pieces {
+  /// What is to be taken off for its size only, or has no name. Ascending.
+  std::vector<FeatureId> may_stay;
+  /// By feature its shortest extent, the paper's c; infinite where it is not known.
+  std::vector<double> c_m;
+};
 
-  CarriedOut run() {
+Pieces pieces_of(const RedrawContext& context, const Plan& plan) {
+  Pieces pieces;
+  for (const Step& step : plan.steps)
+    if (step.operation == "omit" && is_piece(step, context.interpretation))
+      pieces.may_stay.push_back(step.feature);
+  std::ranges::sort(pieces.may_stay);
+  for (const FeatureId id : ids_below<FeatureId>(context.table.rows()))
+    pieces.c_m.push_back(context.table.number(id, Attribute::c).value_or(Box::kInfinity));
+  return pieces;
+}
+
+/// The context with what is found and measured once for all that is tried with it.
+RedrawContext prepared(RedrawContext context) {
+  context.before = measures_of(context.solid, context.invariants);
+  context.cells = context.shared_cells();
+  return context;
+}
+
+/// Carries a plan out and takes steps back until nothing is violated.
+class StepLoop {
+ public:
+  StepLoop(const RedrawContext& context, const Plan& plan)
+      : context_(prepared(context)),
+        plan_(plan),
+        tasks_(detail::tasks_of(plan, context.segmentation)),
+        pieces_(pieces_of(context, plan)),
+        undone_(plan) {}
+
+  Generalised run() {
     while (true) {
-      CarriedOut out = carry_out_first(plan_.steps.size());
-      if (auto broken = violation_by(out.solid)) {
+      Generalised out = carry_out_first(plan_.steps.size());
+      if (auto broken = context_.violation_by(out.solid)) {
         if (undone_.has_all()) return undone_.added_to(std::move(out));
-        if (is_used_up(invariants_.work)) return nothing_carried_out(solid_, plan_);
+        if (context_.has_no_work_left()) return nothing_carried_out(context_, plan_);
         undo_violating(std::move(*broken));
       } else if (!undo_drawn_too_fine(out) && !undo_torn(out) && !undo_carrying(out)) {
-        return undone_.added_to(cleared(std::move(out)));
-      } else if (is_used_up(invariants_.work)) {
-        return nothing_carried_out(solid_, plan_);
+        if (least_m() > 0) out = clear_edges(context_, std::move(out));
+        return undone_.added_to(std::move(out));
+      } else if (context_.has_no_work_left()) {
+        return nothing_carried_out(context_, plan_);
       }
     }
   }
 
  private:
-  [[nodiscard]] std::optional<Violation> violation_by(const Solid& left) const {
-    return violation(before_, measures_of(left, invariants_), invariants_);
-  }
-
   /// What the first steps make, without those that were taken back.
-  [[nodiscard]] CarriedOut carry_out_first(std::size_t count) const {
-    return carry_out_steps(solid_, segmentation_, undone_.first(count), options_, validator_);
+  Generalised carry_out_first(std::size_t count) {
+    return carry_out_steps(context_, undone_.first(count), hindrances_);
   }
 
   /// The first step by which an invariant is violated; the reason is what it violates.
   void undo_violating(Violation reason) {
     if (sound_undone_ != undone_.size()) sound_ = 0;
     const std::size_t step = first_to_break(sound_, plan_.steps.size(), [&](std::size_t first) {
-      auto broken = violation_by(carry_out_first(first).solid);
+      auto broken = context_.violation_by(carry_out_first(first).solid);
       if (broken) reason = std::move(*broken);
       return broken.has_value();
     });
@@ -191,21 +202,21 @@ class InvariantEnforcer {
   }
 
   [[nodiscard]] bool may_be_undone(FeatureId id) const {
-    return !undone_.contains(id) && !std::ranges::binary_search(invariants_.settled, id);
+    return !undone_.contains(id) && !std::ranges::binary_search(context_.settled, id);
   }
 
   /// It was taken off as a piece, and may stay.
-  [[nodiscard]] bool is_removed_piece(FeatureId id, const CarriedOut& out) const {
+  [[nodiscard]] bool is_removed_piece(FeatureId id, const Generalised& out) const {
     return std::ranges::binary_search(pieces_.may_stay, id) &&
            std::ranges::binary_search(out.removed, id) && may_be_undone(id);
   }
 
   /// Takes back what draws an edge that is too short; false if nothing does.
-  bool undo_drawn_too_fine(const CarriedOut& out) {
-    if (invariants_.least_edge_m <= 0 || out.changed.empty()) return false;
+  bool undo_drawn_too_fine(const Generalised& out) {
+    if (least_m() <= 0 || out.changed.empty()) return false;
     const std::size_t count = undone_.size();
-    for (const ShortEdge& edge : short_edges_of_drawn(solid_, out.solid, segmentation_, out.changed,
-                                                      out.removed, invariants_.least_edge_m))
+    for (const ShortEdge& edge : short_edges_of_drawn(
+             context_.solid, out.solid, context_.segmentation, out.changed, out.removed, least_m()))
       if (const FeatureId id = cause_of(edge.feature, out);
           may_be_undone(id) && !is_beside_follower(edge, out)) {
         const std::string reason = fmt::format("an edge of {:.2f} m would be drawn", edge.length_m);
@@ -215,14 +226,14 @@ class InvariantEnforcer {
   }
 
   /// It is between an opening and what follows that: it overhangs it as before.
-  static bool is_beside_follower(const ShortEdge& edge, const CarriedOut& out) {
+  static bool is_beside_follower(const ShortEdge& edge, const Generalised& out) {
     return std::ranges::any_of(out.following, [&](const FollowingFeature& one) {
       return contains(one.box, edge.from, kOnBox_m) && contains(one.box, edge.to, kOnBox_m);
     });
   }
 
   /// What it follows, and what pushed that, if anything did.
-  static FeatureId cause_of(FeatureId id, const CarriedOut& out) {
+  static FeatureId cause_of(FeatureId id, const Generalised& out) {
     const auto follows = std::ranges::find(out.following, id, &FollowingFeature::feature);
     if (follows != out.following.end()) id = follows->with;
     const auto pushed = std::ranges::find(out.pushed, id, &PushedFeature::feature);
@@ -231,7 +242,7 @@ class InvariantEnforcer {
 
   /// With all that is drawn together with the feature.
   void undo_task(FeatureId id, const std::string& reason) {
-    for (const detail::PlanTask& task : detail::tasks_of(plan_, segmentation_)) {
+    for (const detail::PlanTask& task : tasks_) {
       if (std::ranges::find(task.steps, id, &Step::feature) == task.steps.end()) continue;
       for (const Step& step : task.steps)
         if (!undone_.contains(step.feature) && (step.feature == id || !detail::takes_some(step)))
@@ -240,11 +251,11 @@ class InvariantEnforcer {
   }
 
   /// Takes back what tears a piece off; false if nothing does.
-  bool undo_torn(const CarriedOut& out) {
-    if (invariants_.least_edge_m <= 0 || pieces_.may_stay.empty()) return false;
+  bool undo_torn(const Generalised& out) {
+    if (least_m() <= 0 || pieces_.may_stay.empty()) return false;
     const std::size_t count = undone_.size();
     for (const ShortEdge& edge :
-         new_short_edges(solid_, out.solid, segmentation_, out.removed, invariants_.least_edge_m))
+         new_short_edges(context_.solid, out.solid, context_.segmentation, out.removed, least_m()))
       for (const Step& step : plan_.steps)
         if (is_removed_piece(step.feature, out) && is_torn(step.feature, edge))
           undone_.add({step.feature, Code::G418,
@@ -253,13 +264,13 @@ class InvariantEnforcer {
   }
 
   /// Takes back what leaves something hanging that the piece carried; false if nothing does.
-  bool undo_carrying(const CarriedOut& out) {
+  bool undo_carrying(const Generalised& out) {
     const std::size_t count = undone_.size();
     for (const Step& step : plan_.steps)
       if (is_removed_piece(step.feature, out) &&
-          stays_as_it_was(segmentation_, segmentation_.features[step.feature.index()].parent,
-                          out) &&
-          carries_its_parent(segmentation_, step.feature))
+          stays_as_it_was(context_.segmentation,
+                          context_.segmentation.features[step.feature.index()].parent, out) &&
+          carries_its_parent(context_.segmentation, step.feature))
         undone_.add({step.feature, Code::G411, "what stands on it would hang in the air"});
     return undone_.size() > count;
   }
@@ -267,43 +278,22 @@ class InvariantEnforcer {
   /// The edge is where the piece was torn off what stays; of the body it is if the piece covered it
   /// whole. Its ends may be off by what facets of one plane are.
   [[nodiscard]] bool is_torn(FeatureId piece, const ShortEdge& edge) const {
-    const double off_m = options_.tolerances.plane_offset_m;
-    const Box& box = segmentation_.features[piece.index()].box;
+    const double off_m = context_.options.tolerances.plane_offset_m;
+    const Box& box = context_.segmentation.features[piece.index()].box;
     const int held = contains(box, edge.from, off_m) + contains(box, edge.to, off_m);
     if (!edge.feature.is_valid()) return held == 2;
     if (edge.length_m > pieces_.c_m[piece.index()] + 2 * off_m || held == 0) return false;
-    return pieces_.c_m[edge.feature.index()] < invariants_.least_edge_m ||
-           is_within(segmentation_, piece, edge.feature);
+    return pieces_.c_m[edge.feature.index()] < least_m() ||
+           is_within(context_.segmentation, piece, edge.feature);
   }
 
-  /// Without new edges that are too short, as far as that can be.
-  [[nodiscard]] CarriedOut cleared(CarriedOut out) const {
-    if (invariants_.least_edge_m <= 0) return out;
-    ClearOrder order;
-    order.reach_m = invariants_.least_edge_m;
-    order.short_edges_of = [&](const Solid& solid) {
-      return without_whole_edges(
-          new_short_edges(solid_, solid, segmentation_, out.removed, invariants_.least_edge_m),
-          segmentation_, out.changed, out.removed, invariants_.least_edge_m);
-    };
-    const detail::StayingFeatures staying(segmentation_, out.removed);
-    order.keeps_facet = [&](const Solid& solid, const Facet& facet) {
-      return staying.why_it_stays(solid, facet);
-    };
-    Cleared cleared = clear_edges(std::move(out.solid), order, validator_);
-    out.solid = std::move(cleared.solid);
-    out.uncleared = std::move(cleared.left);
-    return out;
-  }
+  [[nodiscard]] double least_m() const { return context_.invariants.least_edge_m; }
 
-  const Solid& solid_;
-  const Segmentation& segmentation_;
+  const RedrawContext context_;
   const Plan& plan_;
-  const SegmentOptions& options_;
-  const Invariants& invariants_;
-  const Pieces& pieces_;
-  Measures before_;
-  SolidValidator validator_;
+  const std::vector<detail::PlanTask> tasks_;
+  const Pieces pieces_;
+  std::map<FeatureId, Hindrance> hindrances_;
   UndoneSteps undone_;
   /// By so many of the first steps nothing is violated, while so many are undone.
   std::size_t sound_ = 0, sound_undone_ = 0;
@@ -311,10 +301,13 @@ class InvariantEnforcer {
 
 }  // namespace
 
-CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                     const SegmentOptions& options, const Invariants& invariants,
-                     const Pieces& pieces) {
-  return InvariantEnforcer(solid, segmentation, plan, options, invariants, pieces).run();
+bool is_piece(const Step& step, const Interpretation& interpretation) {
+  return interpretation.verdicts[step.feature.index()].label.empty() ||
+         is_verdict_of_size(step.rule.substr(step.rule.find('/') + 1));
+}
+
+Generalised carry_out(const RedrawContext& context, const Plan& plan) {
+  return StepLoop(context, plan).run();
 }
 
 }  // namespace oriel

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -26,7 +25,8 @@ constexpr double kLeastGap_m = 0.001;
 
 /// The greatest of some values from 0 to `most` with which something acts, if it does with 0; with
 /// `most` it does not.
-std::optional<int> greatest(int most, const std::function<bool(int)>& acts) {
+template <class Acts>
+std::optional<int> greatest(int most, const Acts& acts) {
   if (most < 1 || !acts(0)) return std::nullopt;
   int good = 0, bad = most;
   while (bad - good > 1) {
@@ -103,41 +103,35 @@ constexpr std::size_t kTriesForNeeds = 8;
 
 class StepRunner {
  public:
-  StepRunner(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-             const SegmentOptions& options, const SolidValidator& validator)
-      : solid_(solid),
-        segmentation_(segmentation),
+  StepRunner(const RedrawContext& context, const Plan& plan,
+             std::map<FeatureId, Hindrance>& hindrances)
+      : context_(context),
+        segmentation_(context.segmentation),
         plan_(plan),
-        options_(options),
-        validator_(validator),
-        tasks_(detail::tasks_of(plan, segmentation)) {}
+        hindrances_(hindrances),
+        tasks_(detail::tasks_of(plan, context.segmentation)) {}
 
-  CarriedOut run() {
+  Generalised run() {
     while (true) {
       const std::size_t failures = failed_.size() + unpushed_.size();
-      CarriedOut out = attempt();
+      Generalised out = attempt();
       if (failed_.size() + unpushed_.size() > failures) {
-        if (is_used_up(validator_.work)) return nothing_carried_out(solid_, plan_);
+        if (context_.has_no_work_left()) return nothing_carried_out(context_, plan_);
         continue;
       }
       draw_followers(out);
       for (const auto& [id, refused] : failed_) out.refused.push_back(refused);
-      std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
+      std::ranges::sort(out.refused, {}, &RefusedStep::feature);
       add_along(out);
       return out;
     }
   }
 
  private:
-  [[nodiscard]] const Feature& feature(const Step& step) const {
-    return segmentation_.features[step.feature.index()];
-  }
-
   void fail(const Step& step, Code code, const std::string& reason) {
-    CarriedOut::Refused refused{step.feature, code, reason};
-    if (code == Code::G403 && validator_.hindrances)
-      if (const auto known = validator_.hindrances->find(step.feature);
-          known != validator_.hindrances->end())
+    RefusedStep refused{step.feature, code, reason};
+    if (code == Code::G403)
+      if (const auto known = hindrances_.find(step.feature); known != hindrances_.end())
         refused.hindrance = known->second;
     failed_.try_emplace(step.feature, std::move(refused));
   }
@@ -153,29 +147,27 @@ class StepRunner {
 
   /// What hinders the operator is looked for once.
   [[nodiscard]] bool wants_hindrance(const detail::PlanTask& task) const {
-    return validator_.hindrances && std::ranges::any_of(task.steps, [&](const Step& step) {
-             return !validator_.hindrances->contains(step.feature);
-           });
+    return std::ranges::any_of(
+        task.steps, [&](const Step& step) { return !hindrances_.contains(step.feature); });
   }
   void keep_hindrance(const detail::PlanTask& task, const Operator& its, const Redrawing& asked,
                       const detail::Placed& placed) const {
     for (const detail::Placed::LeftMember& one : placed.left)
-      if (!one.is_needless)
-        validator_.hindrances->try_emplace(task.steps[one.member].feature, one.hindrance);
+      if (!one.is_needless) hindrances_.try_emplace(task.steps[one.member].feature, one.hindrance);
     if (!placed.left.empty() || placed.is_needless) return;
     const Hindrance found = HindranceFinder(its, asked).run();
-    for (const Step& step : task.steps) validator_.hindrances->try_emplace(step.feature, found);
+    for (const Step& step : task.steps) hindrances_.try_emplace(step.feature, found);
   }
 
   /// Takes everything off and puts back what operators leave; what fails is not tried again.
-  CarriedOut attempt() {
+  Generalised attempt() {
     Plan off = everything_off();
     const std::vector<detail::Push> pushes = add_pushed(off);
     pushed_.clear();
     for (const detail::Push& push : pushes)
       pushed_.insert(pushed_.end(), push.pushed.begin(), push.pushed.end());
-    Remainder remainder = omit(solid_, segmentation_, off, options_, validator_);
-    CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
+    Remainder remainder = omit(context_, off);
+    Generalised out{std::move(remainder.solid), std::move(remainder.removed), {}};
     for (const detail::PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
     for (const Refusal& refusal : remainder.refused)
       if (is_pushed(refusal.feature, pushes))
@@ -213,7 +205,7 @@ class StepRunner {
   }
 
   /// Of what goes along with another nothing is told: it stays.
-  void keep_refusal(const Refusal& refusal, CarriedOut& out) {
+  void keep_refusal(const Refusal& refusal, Generalised& out) {
     const auto step = std::ranges::find(plan_.steps, refusal.feature, &Step::feature);
     if (step == plan_.steps.end() || failed_.contains(refusal.feature)) return;
     if (step->with.empty())
@@ -268,7 +260,7 @@ class StepRunner {
 
   /// Puts what made room back, beside what has grown. What cannot be put back so is in the way
   /// after all.
-  void put_aside(const detail::Push& push, CarriedOut& out) {
+  void put_aside(const detail::Push& push, Generalised& out) {
     std::vector<Step> some;
     for (const Step& step : push.pushed)
       if (std::ranges::binary_search(out.removed, step.feature) && !went_with_another(step, out))
@@ -314,7 +306,7 @@ class StepRunner {
   }
 
   /// What merges was not taken off; it may have gone with what carries it.
-  void merge_in(const detail::PlanTask& task, CarriedOut& out) {
+  void merge_in(const detail::PlanTask& task, Generalised& out) {
     const FeatureId id = task.steps[0].feature;
     if (failed_.contains(id) || std::ranges::binary_search(out.removed, id)) return;
     detail::Placed placed = merge({out.solid, segmentation_, task.steps, plan_.scale});
@@ -324,7 +316,7 @@ class StepRunner {
     std::ranges::sort(out.changed);
   }
 
-  void put_back(const detail::PlanTask& planned, CarriedOut& out) {
+  void put_back(const detail::PlanTask& planned, Generalised& out) {
     if (planned.operation == "merge") return merge_in(planned, out);
     detail::PlanTask task = without_failed(planned);
     const auto can_be_put_back = [&](const Step& step) {
@@ -338,21 +330,21 @@ class StepRunner {
   }
 
   /// It went with what carries it, unless that belongs to it, as a frame does.
-  [[nodiscard]] bool went_with_another(const Step& step, const CarriedOut& out) const {
+  [[nodiscard]] bool went_with_another(const Step& step, const Generalised& out) const {
     const auto is_gone = [&](FeatureId id) {
       return id.is_valid() && std::ranges::binary_search(out.removed, id) &&
              !std::ranges::binary_search(step.with, id);
     };
-    return is_gone(feature(step).parent) || is_gone(feature(step).host);
+    return is_gone(context_.feature(step.feature).parent) ||
+           is_gone(context_.feature(step.feature).host);
   }
 
   /// Counts what drawing so many features takes, with what is tried before one fits.
   [[nodiscard]] bool may_draw(std::size_t features, const Solid& solid) const {
-    return may_go_on(validator_.work, solid,
-                     1 + static_cast<std::int64_t>(features) / kDrawnPerStep);
+    return context_.may_go_on(solid, 1 + static_cast<std::int64_t>(features) / kDrawnPerStep);
   }
 
-  void redraw(const detail::PlanTask& task, CarriedOut& out) {
+  void redraw(const detail::PlanTask& task, Generalised& out) {
     const Operator& its = operator_named(task.operation);
     if (!may_draw(task.steps.size(), out.solid)) return fail(task, Code::E502, kNoWorkLeft);
     const bool tells_needs = wants_hindrance(task);
@@ -363,17 +355,18 @@ class StepRunner {
         keep_hindrance(task, its, asked, placed);
       return fail(task, placed);
     }
-    if (task.operation == "flatten" && validator_ &&
-        validator_.fitness_of(*placed.solid) == Fitness::unfit)
+    if (task.operation == "flatten" && context_.judge != nullptr &&
+        context_.judge->fitness_of(*placed.solid) == Fitness::unfit)
       return fail(task, Code::G403, "the moved facet would meet another part");
     out.solid = std::move(*placed.solid);
-    if (placed.stays.empty())
-      for (std::size_t i = 0; i < its.kept(task.steps); ++i) placed.stays.push_back(i);
-    std::vector<Step> stay;
-    for (const std::size_t member : placed.stays) {
-      std::erase(out.removed, task.steps[member].feature);
-      out.changed.push_back(task.steps[member].feature);
-      stay.push_back(task.steps[member]);
+    std::vector<Step> stay = task.steps;
+    if (placed.stays) {
+      stay.clear();
+      for (const std::size_t member : *placed.stays) stay.push_back(task.steps[member]);
+    }
+    for (const Step& step : stay) {
+      std::erase(out.removed, step.feature);
+      out.changed.push_back(step.feature);
     }
     std::ranges::sort(out.changed);
     for (const Step& step : task.steps)
@@ -384,7 +377,7 @@ class StepRunner {
   /// By feature what is to be drawn again beside openings: their steps.
   using StepsOfFollower = std::map<FeatureId, std::vector<const Step*>>;
 
-  [[nodiscard]] StepsOfFollower followers_of(const CarriedOut& out) const {
+  [[nodiscard]] StepsOfFollower followers_of(const Generalised& out) const {
     StepsOfFollower found;
     const auto add = [&](const Step& step) {
       for (const FeatureId id : step.follows)
@@ -400,7 +393,7 @@ class StepRunner {
   }
 
   /// Draws what belongs to openings again; what cannot be drawn goes along with them.
-  void draw_followers(CarriedOut& out) const {
+  void draw_followers(Generalised& out) const {
     const StepsOfFollower followers = followers_of(out);
     if (followers.empty() || out.changed.empty()) return;
     const auto drawn = detail::drawn_corners(out.solid, segmentation_, out.changed);
@@ -409,7 +402,7 @@ class StepRunner {
   }
 
   void draw_follower(FeatureId id, const std::vector<const Step*>& steps,
-                     const detail::DrawnCorners& drawn, CarriedOut& out) const {
+                     const detail::DrawnCorners& drawn, Generalised& out) const {
     detail::Follower follower{id, {}, steps[0]->belonging, 0};
     std::vector<FeatureId> own;
     FeatureId with;
@@ -422,8 +415,7 @@ class StepRunner {
     }
     if (!with.is_valid() || went_with_another({id, {}, {}}, out)) return;
     follower.gap_m = Redrawing{out.solid, segmentation_, {*steps[0]}, plan_.scale}.gap_m();
-    detail::Followed found = detail::follow(out.solid, segmentation_, follower, drawn, own,
-                                            validator_.hindrances != nullptr);
+    detail::Followed found = detail::follow(out.solid, segmentation_, follower, drawn, own);
     if (!found.placed.solid) {
       out.along.push_back({id, with, std::move(found.placed.reason), std::move(found.beside)});
       return;
@@ -440,7 +432,7 @@ class StepRunner {
 
   /// After what stands for rows: what belongs to features that left their places, and then what was
   /// on or in others.
-  void add_along(CarriedOut& out) const {
+  void add_along(Generalised& out) const {
     const auto has_left = [&](FeatureId id) {
       return id.is_valid() && (std::ranges::binary_search(out.removed, id) ||
                                std::ranges::binary_search(out.changed, id));
@@ -474,30 +466,29 @@ class StepRunner {
     return task;
   }
 
-  const Solid& solid_;
+  const RedrawContext& context_;
   const Segmentation& segmentation_;
   const Plan& plan_;
-  const SegmentOptions& options_;
-  const SolidValidator& validator_;
+  std::map<FeatureId, Hindrance>& hindrances_;
   std::vector<detail::PlanTask> tasks_;
-  std::map<FeatureId, CarriedOut::Refused> failed_;
+  std::map<FeatureId, RefusedStep> failed_;
   std::set<FeatureId> unpushed_;  ///< they stay where they are
   std::vector<Step> pushed_{};    ///< what makes room, in the last attempt
 };
 
 }  // namespace
 
-CarriedOut nothing_carried_out(const Solid& solid, const Plan& plan) {
-  CarriedOut out{solid, {}, {}};
+Generalised nothing_carried_out(const RedrawContext& context, const Plan& plan) {
+  Generalised out{context.solid, {}};
   const std::string reason = kNoWorkLeft;
   for (const Step& step : plan.steps) out.refused.push_back({step.feature, Code::E502, reason});
-  std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
+  std::ranges::sort(out.refused, {}, &RefusedStep::feature);
   return out;
 }
 
-CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                           const SegmentOptions& options, const SolidValidator& validator) {
-  return StepRunner(solid, segmentation, plan, options, validator).run();
+Generalised carry_out_steps(const RedrawContext& context, const Plan& plan,
+                            std::map<FeatureId, Hindrance>& hindrances) {
+  return StepRunner(context, plan, hindrances).run();
 }
 
 }  // namespace oriel

@@ -1,7 +1,6 @@
 #include "generalise/generalise.h"
 
-#include "generalise/invariants/invariants.h"
-#include "interpret/score/significance.h"
+#include "generalise/carry_out.h"
 
 #include <algorithm>
 #include <array>
@@ -15,59 +14,29 @@ namespace oriel {
 
 namespace {
 
-Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segmentation,
-                    const FeatureTable& table, const Interpretation& interpretation,
-                    const Plan& plan, const std::string& target) {
-  const FeatureId parent = segmentation.features[refusal.feature.index()].parent;
-  const std::string& label = interpretation.verdicts[refusal.feature.index()].label;
-  if (is_part(refusal, plan, interpretation)) {
-    Issue note =
-        building_issue(Severity::note, refusal.code, table.building(),
-                       fmt::format("is a part of the building and stays at {}: without it {}",
-                                   target, reason_of(refusal, table)));
-    note.place.feature = table.id(refusal.feature);
-    return note;
-  }
-  const bool is_piece = parent.is_valid() && label.empty();
-  Issue issue =
-      building_issue(is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
-                     is_piece ? fmt::format("is a piece of {} and stays with it at {}: {}",
-                                            table.id(parent), target, reason_of(refusal, table))
-                              : fmt::format("is not {} at {}: {}",
-                                            refusal.code == Code::G403 ? "changed" : "omitted",
-                                            target, reason_of(refusal, table)));
-  issue.place.feature = table.id(refusal.feature);
+Issue note_of(const RedrawContext& context, FeatureId id, Severity severity, Code code,
+              std::string sentence) {
+  Issue issue = building_issue(severity, code, context.table.building(), std::move(sentence));
+  issue.place.feature = context.table.id(id);
   return issue;
 }
 
-Issue unfollowed_issue(const AlongFeature& one, const FeatureTable& table,
-                       const std::string& target) {
-  Issue note = building_issue(Severity::note, Code::G424, table.building(),
-                              fmt::format("goes along with {} at {}, as it cannot follow: {}",
-                                          table.id(one.with), target, one.reason));
-  note.place.feature = table.id(one.feature);
-  return note;
-}
-
-bool is_unnamed(FeatureId id, const Interpretation& interpretation) {
-  return interpretation.verdicts[id.index()].label.empty();
-}
-
-bool is_for_size(const Step& step) {
-  return is_verdict_of_size(step.rule.substr(step.rule.find('/') + 1));
-}
-
-/// What is taken off for its size only, or has no name, may turn out to be a part of the building.
-Pieces pieces_of(const Plan& plan, const FeatureTable& table,
-                 const Interpretation& interpretation) {
-  Pieces pieces;
-  for (const Step& step : plan.steps)
-    if (step.operation == "omit" && (is_unnamed(step.feature, interpretation) || is_for_size(step)))
-      pieces.may_stay.push_back(step.feature);
-  std::ranges::sort(pieces.may_stay);
-  for (int i = 0; i < static_cast<int>(table.rows()); ++i)
-    pieces.c_m.push_back(table.number(FeatureId{i}, Attribute::c).value_or(Box::kInfinity));
-  return pieces;
+Issue refusal_issue(const RedrawContext& context, const Plan& plan, const RefusedStep& refusal,
+                    const std::string& target) {
+  const FeatureTable& table = context.table;
+  const std::string reason = reason_of(refusal, table);
+  const FeatureId id = refusal.feature, parent = context.feature(id).parent;
+  if (is_part(refusal, plan, context.interpretation))
+    return note_of(
+        context, id, Severity::note, refusal.code,
+        fmt::format("is a part of the building and stays at {}: without it {}", target, reason));
+  if (parent.is_valid() && context.interpretation.verdicts[id.index()].label.empty())
+    return note_of(context, id, Severity::note, refusal.code,
+                   fmt::format("is a piece of {} and stays with it at {}: {}", table.id(parent),
+                               target, reason));
+  return note_of(context, id, Severity::warning, refusal.code,
+                 fmt::format("is not {} at {}: {}",
+                             refusal.code == Code::G403 ? "changed" : "omitted", target, reason));
 }
 
 /// What pushed a feature, or the feature.
@@ -126,45 +95,39 @@ std::string text_of(const Need& need) {
 
 }  // namespace
 
-bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
-             const Interpretation& interpretation) {
+bool is_part(const RefusedStep& refused, const Plan& plan, const Interpretation& interpretation) {
   if (refused.code != Code::G411 && refused.code != Code::G412 && refused.code != Code::G418)
     return false;
   const auto step = std::ranges::find(plan.steps, refused.feature, &Step::feature);
-  return is_unnamed(refused.feature, interpretation) ||
-         (step != plan.steps.end() && is_for_size(*step));
+  return is_piece(step == plan.steps.end() ? Step{refused.feature, {}, {}} : *step, interpretation);
 }
 
-Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
-                                const FeatureTable& table, const Interpretation& interpretation,
-                                const Plan& plan, const SegmentOptions& options,
-                                const Invariants& invariants) {
+Checked<Generalised> generalise(const RedrawContext& context, const Plan& plan) {
   Checked<Generalised> out;
   const std::string target =
       plan.scale > 0 ? fmt::format("1:{}", plan.scale) : std::string("this level of detail");
-  CarriedOut done = carry_out(solid, segmentation, plan, options, invariants,
-                              pieces_of(plan, table, interpretation));
+  Generalised done = carry_out(context, plan);
   // What there was no work left for is told of the building as a whole, by who gave the work.
-  for (const CarriedOut::Refused& refusal : done.refused)
+  for (const RefusedStep& refusal : done.refused)
     if (refusal.code != Code::E502 && refusal.code != Code::none)
-      out.issues.push_back(
-          refusal_issue(refusal, segmentation, table, interpretation, plan, target));
+      out.issues.push_back(refusal_issue(context, plan, refusal, target));
   for (const AlongFeature& one : done.along)
-    if (!one.reason.empty()) out.issues.push_back(unfollowed_issue(one, table, target));
+    if (!one.reason.empty())
+      out.issues.push_back(note_of(context, one.feature, Severity::note, Code::G424,
+                                   fmt::format("goes along with {} at {}, as it cannot follow: {}",
+                                               context.table.id(one.with), target, one.reason)));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
     out.issues.push_back(building_issue(
-        Severity::error, Code::G402, table.building(),
+        Severity::error, Code::G402, context.table.building(),
         fmt::format("no closed solid would be left at {}; it stays unchanged", target)));
     return out;
   }
-  out.value = Generalised{
-      std::move(done.solid),   std::move(done.removed),   std::move(done.refused),  false,
-      std::move(done.changed), std::move(done.uncleared), closing_faces(solid),     {},
-      std::move(done.pushed),  std::move(done.along),     std::move(done.following)};
+  done.closing = closing_faces(context.solid);
+  out.value = std::move(done);
   return out;
 }
 
-std::string reason_of(const CarriedOut::Refused& refused, const FeatureTable& table) {
+std::string reason_of(const RefusedStep& refused, const FeatureTable& table) {
   const auto& [needs, beside] = refused.hindrance;
   std::string text = refused.reason;
   for (std::size_t i = 0; i < std::min(beside.size(), kMostBeside); ++i)
@@ -185,7 +148,7 @@ std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised
     one.feature = table.id(id);
     one.label = interpretation.verdicts[id.index()].label;
     const auto step = std::ranges::find(plan.steps, id, &Step::feature);
-    const auto refused = std::ranges::find(generalised.refused, id, &CarriedOut::Refused::feature);
+    const auto refused = std::ranges::find(generalised.refused, id, &RefusedStep::feature);
     if (step != plan.steps.end()) {
       one.operation = step->operation;
       one.rule = step->rule;

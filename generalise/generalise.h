@@ -1,15 +1,10 @@
 #pragma once
 
-#include "generalise/carry_out.h"
+#include "generalise/context.h"
+#include "generalise/generalised.h"
 #include "kernel/base/issue.h"
-#include "kernel/segment/segment.h"
-#include "model/building.h"
-#include "model/description/feature_table.h"
-#include "model/interpretation.h"
 #include "model/labelled_building.h"
 #include "model/plan.h"
-#include "model/segmentation.h"
-#include "model/solid.h"
 
 #include <map>
 #include <string>
@@ -17,46 +12,14 @@
 
 namespace oriel {
 
-/// A face of a solid that oriel closed a hole with: no polygon of the input lies in it.
-struct ClosingFace {
-  Plane plane;
-  std::vector<std::vector<Vec3>> outlines;
-};
-
-/// Those of a building's own solid, before anything is cut off.
+/// The closing faces of a building's own solid, before anything is cut off.
 std::vector<ClosingFace> closing_faces(const Solid& solid);
-
-/// A building redrawn for a scale.
-struct Generalised {
-  /// Closed; what was taken off leaves no seams.
-  Solid solid;
-  /// The features that are gone: those of the plan and all that sat on them. Ascending.
-  std::vector<FeatureId> removed;
-  /// Steps of the plan that were not carried out, and why; by feature.
-  std::vector<CarriedOut::Refused> refused{};
-  /// To be drawn even if nothing is gone: its own solid instead of the input's polygons.
-  bool is_drawn_anew = false;
-  /// Features that look different now, ascending.
-  std::vector<FeatureId> changed{};
-  std::vector<UnclearedEdge> uncleared{};
-  /// Of the solid that it was made from.
-  std::vector<ClosingFace> closing{};
-  /// Imprints that stay but get no facet of their own, ascending.
-  std::vector<FeatureId> undrawn{};
-  /// Those of the changed that have no step: openings that made room.
-  std::vector<PushedFeature> pushed{};
-  /// Those of the removed that went along with others; by feature.
-  std::vector<AlongFeature> along{};
-  /// Those of the changed that moved or grew with others; by feature.
-  std::vector<FollowingFeature> following{};
-};
 
 /// What was to go for its size only turns out to be a part of the building: without it something
 /// that stays would hang in the air (G411), the building would reach out of its box (G412), or an
 /// edge would be left that is too short (G418): a piece of a plinth that runs on. What
 /// the plan names by its class is refused instead.
-bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
-             const Interpretation& interpretation);
+bool is_part(const RefusedStep& refused, const Plan& plan, const Interpretation& interpretation);
 
 /// Carries out the plan of one building on its solid. Operations that cannot be carried out are
 /// left out, each with a warning G401, or G405, G411, G412 or G418 if an invariant would break,
@@ -65,13 +28,8 @@ bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
 /// part was cut, and many have no cut of their own in the whole building. No value if nothing would
 /// be left of the building (G402): it is to stay as it is.
 ///
-/// `segmentation` is that of `solid`, made with `options`; `table` gives features their ids in
-/// messages, `interpretation` their labels. Source: paper 5.1 (omission) and 5.2;
-/// docs/generalisation.md.
-Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
-                                const FeatureTable& table, const Interpretation& interpretation,
-                                const Plan& plan, const SegmentOptions& options = {},
-                                const Invariants& invariants = {});
+/// Source: paper 5.1 (omission) and 5.2; docs/generalisation.md.
+Checked<Generalised> generalise(const RedrawContext& context, const Plan& plan);
 
 /// What is to be written of a generalised building, and which CityObjects have to leave the file.
 struct Redrawn {
@@ -92,10 +50,7 @@ struct Redrawn {
 ///
 /// If nothing is gone and the building came as a solid it stays as it is: `labelled`, which is what
 /// annotate says of it, so that generalising twice changes no byte of the geometry.
-Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
-               const Segmentation& segmentation, const FeatureTable& table,
-               const Interpretation& interpretation, Generalised generalised,
-               const Tolerances& tolerances = {});
+Redrawn redraw(const RedrawContext& context, Generalised generalised);
 
 /// Adds to `redrawn` what is known of the features that are gone: how many of each label, and on
 /// the building the flat attributes `oriel_removed_LABEL` and `oriel_removed_volume_m3`.
@@ -124,7 +79,7 @@ struct FeatureOutcome {
 };
 
 /// The reason of a refusal, with what would let the operator act.
-std::string reason_of(const CarriedOut::Refused& refused, const FeatureTable& table);
+std::string reason_of(const RefusedStep& refused, const FeatureTable& table);
 
 /// One for each feature, in their order.
 std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised& generalised,

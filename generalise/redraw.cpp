@@ -44,24 +44,23 @@ constexpr double kSamePlane = 0.999;
 
 class Redrawer {
  public:
-  Redrawer(const Building& building, const LabelledBuilding& labelled, Generalised generalised,
-           const Tolerances& tolerances)
-      : labelled_(labelled),
+  Redrawer(const RedrawContext& context, Generalised generalised)
+      : context_(context),
+        labelled_(context.labelled),
         generalised_(std::move(generalised)),
-        reach_m_(tolerances.plane_offset_m + tolerances.weld_m) {
-    for (const Polygon& polygon : building.polygons)
-      area_[polygon.source] = area_vector(building, polygon);
-    out_.labelled.building = labelled.building;
-    out_.labelled.attributes = labelled.attributes;
+        reach_m_(context.options.tolerances.plane_offset_m + context.options.tolerances.weld_m) {
+    for (const Polygon& polygon : context.building.polygons)
+      area_[polygon.source] = area_vector(context.building, polygon);
+    out_.labelled.building = labelled_.building;
+    out_.labelled.attributes = labelled_.attributes;
   }
 
-  Redrawn run(const Segmentation& segmentation, const FeatureTable& table,
-              const Interpretation& interpretation) {
-    for (const FeatureId id : generalised_.removed) gone_.insert(table.id(id));
+  Redrawn run() {
+    for (const FeatureId id : generalised_.removed) gone_.insert(context_.table.id(id));
     label_facets();
     tie_openings();
-    keep_installations(heirs(segmentation, table));
-    count_removed(generalised_.removed, segmentation, interpretation, out_);
+    keep_installations(heirs());
+    count_removed(generalised_.removed, context_.segmentation, context_.interpretation, out_);
     out_.labelled.geometry = std::move(generalised_.solid);
     return std::move(out_);
   }
@@ -148,33 +147,30 @@ class Redrawer {
 
   /// Of facets in which no input polygon lies the ids of the features that they belong to now:
   /// where something is gone, its host, and what that is a piece of.
-  [[nodiscard]] std::map<int, std::set<std::string>> heirs(const Segmentation& segmentation,
-                                                           const FeatureTable& table) const {
+  [[nodiscard]] std::map<int, std::set<std::string>> heirs() const {
     std::vector<int> bare;
     for (int f = 0; f < std::ssize(facets()); ++f)
       if (facets()[at(f)].polygons.empty()) bare.push_back(f);
     std::map<int, std::set<std::string>> found;
     for (const FeatureId id : generalised_.removed) {
-      const Feature& gone = segmentation.features[id.index()];
+      const Feature& gone = context_.feature(id);
       if (!gone.host.is_valid() || bare.empty()) continue;
-      const auto heir =
-          std::ranges::find_if(bare, [&](int f) { return closes(f, gone, segmentation); });
+      const auto heir = std::ranges::find_if(bare, [&](int f) { return closes(f, gone); });
       if (heir == bare.end()) continue;
-      for (FeatureId host = gone.host; host.is_valid();
-           host = segmentation.features[host.index()].parent)
-        found[*heir].insert(table.id(host));
+      for (FeatureId host = gone.host; host.is_valid(); host = context_.feature(host).parent)
+        found[*heir].insert(context_.table.id(host));
     }
     return found;
   }
 
   /// The facet lies where the feature was cut off.
-  [[nodiscard]] bool closes(int f, const Feature& gone, const Segmentation& segmentation) const {
+  [[nodiscard]] bool closes(int f, const Feature& gone) const {
     const Solid& solid = generalised_.solid;
     const Facet& facet = facets()[at(f)];
     const Plane& plane = solid.planes[facet.plane.index()];
     return !gone.planes.empty() &&
            std::abs(dot(plane.normal, gone.cap_point) - plane.offset_m) <= reach_m_ &&
-           dot(plane.normal, segmentation.planes[gone.planes[0].index()].normal) > 0.99 &&
+           dot(plane.normal, context_.segmentation.planes[gone.planes[0].index()].normal) > 0.99 &&
            contains(outlines_of(solid.vertices, facet.loops), plane.normal, gone.cap_point);
   }
 
@@ -200,6 +196,7 @@ class Redrawer {
     }
   }
 
+  const RedrawContext& context_;
   const LabelledBuilding& labelled_;
   Generalised generalised_;
   double reach_m_;
@@ -235,24 +232,20 @@ void count_removed(const std::vector<FeatureId>& removed, const Segmentation& se
   if (!redrawn.removed.empty()) attributes.emplace_back("oriel_removed_volume_m3", volume_m3);
 }
 
-Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
-               const Segmentation& segmentation, const FeatureTable& table,
-               const Interpretation& interpretation, Generalised generalised,
-               const Tolerances& tolerances) {
-  if (generalised.removed.empty() && generalised.changed.empty() && building.is_solid &&
+Redrawn redraw(const RedrawContext& context, Generalised generalised) {
+  if (generalised.removed.empty() && generalised.changed.empty() && context.building.is_solid &&
       !generalised.is_drawn_anew)
-    return {labelled, {}, {}};
+    return {context.labelled, {}, {}};
   std::vector<FeatureId> imprints;
-  for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size()))
-    if (segmentation.features[i.index()].sense == Sense::imprint &&
+  for (const FeatureId i : ids_below<FeatureId>(context.segmentation.features.size()))
+    if (context.feature(i).sense == Sense::imprint &&
         !std::ranges::binary_search(generalised.removed, i) &&
         !std::ranges::binary_search(generalised.changed, i) &&
-        !std::ranges::binary_search(generalised.undrawn, i))
+        !std::ranges::binary_search(context.undrawn, i))
       imprints.push_back(i);
-  generalised.solid =
-      draw_imprints(std::move(generalised.solid), segmentation, imprints, tolerances);
-  return Redrawer(building, labelled, std::move(generalised), tolerances)
-      .run(segmentation, table, interpretation);
+  generalised.solid = draw_imprints(std::move(generalised.solid), context.segmentation, imprints,
+                                    context.options.tolerances);
+  return Redrawer(context, std::move(generalised)).run();
 }
 
 }  // namespace oriel

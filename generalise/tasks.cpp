@@ -13,9 +13,6 @@ namespace oriel::detail {
 
 namespace {
 
-/// The rank of `collapse`: what is flush is drawn after all that stands on its facet.
-constexpr int kOutlinesLast = 2;
-
 class TaskMaker {
  public:
   TaskMaker(const Plan& plan, const Segmentation& segmentation)
@@ -39,8 +36,10 @@ class TaskMaker {
       const auto first = std::ranges::min(task.steps, {}, &Step::feature).feature;
       const bool draws_outlines = std::ranges::any_of(
           task.steps, [&](const Step& step) { return feature(step).sense == Sense::imprint; });
-      const int rank = operator_named(task.operation).rank;
-      return std::pair{draws_outlines ? std::max(rank, kOutlinesLast) : rank, first};
+      // What is flush is drawn after all that stands on its facet.
+      const OperatorTurn turn =
+          draws_outlines ? OperatorTurn::outlines : operator_named(task.operation).turn;
+      return std::pair{turn, first};
     });
     return std::move(tasks_);
   }
@@ -98,8 +97,12 @@ class TaskMaker {
 
 }  // namespace
 
-bool is_for_groups(const Step& step) { return operator_named(step.operation).is_for_groups(step); }
-bool takes_some(const Step& step) { return operator_named(step.operation).takes_some; }
+bool is_for_groups(const Step& step) {
+  return operator_named(step.operation).scope != OperatorScope::feature && !becomes_block(step);
+}
+bool takes_some(const Step& step) {
+  return operator_named(step.operation).scope == OperatorScope::wall;
+}
 
 std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation) {
   return TaskMaker(plan, segmentation).run();

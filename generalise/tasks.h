@@ -18,7 +18,7 @@ struct PlanTask {
 bool is_for_groups(const Step& step);
 
 /// True of steps of which some may be carried out and others not, though they are one task
-/// (Operator::takes_some).
+/// (OperatorScope::wall).
 bool takes_some(const Step& step);
 
 /// The steps of a plan as tasks, in the order in which they are carried out: of their first

@@ -36,17 +36,14 @@ Redrawn drawn_blocks(const LabelledBuilding& labelled, Solid solid) {
 
 }  // namespace
 
-Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
-                        const Segmentation& segmentation, const FeatureTable& table,
-                        const Interpretation& interpretation, const Profile& profile,
-                        Generalised generalised, const Tolerances& tolerances, Work& work,
+Checked<Redrawn> to_lod(const RedrawContext& context, const Profile& profile,
+                        Generalised generalised, Work& work,
                         std::function<bool(const Box& gained)> may_cover,
                         std::function<bool(Vec3 from, Vec3 to)> is_shared) {
   Checked<Redrawn> out;
   if (profile.form == Profile::Form::as_is) {
     generalised.is_drawn_anew = true;
-    out.value = redraw(building, labelled, segmentation, table, interpretation,
-                       std::move(generalised), tolerances);
+    out.value = redraw(context, std::move(generalised));
   } else {
     BlockOptions options;
     options.is_by_roof = profile.form == Profile::Form::blocks;
@@ -54,12 +51,13 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
     options.least_edge_m = profile.footprint_edge_m;
     options.may_cover = std::move(may_cover);
     options.is_shared = std::move(is_shared);
-    auto made = blocks(generalised.solid, building.id, options, tolerances, work);
+    auto made =
+        blocks(generalised.solid, context.building.id, options, context.options.tolerances, work);
     out.issues = std::move(made.issues);
     if (!made.value) return out;
     const auto note = [&](std::string sentence) {
       out.issues.push_back(
-          building_issue(Severity::note, Code::G407, building.id, std::move(sentence)));
+          building_issue(Severity::note, Code::G407, context.building.id, std::move(sentence)));
     };
     if (made.value->is_simplified)
       note("parts of its roof meet in a vertical edge: it became one block");
@@ -72,8 +70,8 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
           fmt::format("{} of its footprint below {} m cannot go: too much ground would be covered "
                       "or left, or a neighbour may stand there",
                       counted(made.value->short_edges, "edge"), profile.footprint_edge_m));
-    out.value = drawn_blocks(labelled, std::move(made.value->solid));
-    count_removed(generalised.removed, segmentation, interpretation, *out.value);
+    out.value = drawn_blocks(context.labelled, std::move(made.value->solid));
+    count_removed(generalised.removed, context.segmentation, context.interpretation, *out.value);
   }
   out.value->labelled.lod = profile.level;
   return out;

@@ -18,10 +18,8 @@ namespace oriel {
 /// installation is left. `may_cover` and `is_shared`, of one block: BlockOptions. Note G407 if
 /// blocks had to be simpler than asked for, G406 (error) and no value if there are none, or if
 /// `work` is used up.
-Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
-                        const Segmentation& segmentation, const FeatureTable& table,
-                        const Interpretation& interpretation, const Profile& profile,
-                        Generalised generalised, const Tolerances& tolerances, Work& work,
+Checked<Redrawn> to_lod(const RedrawContext& context, const Profile& profile,
+                        Generalised generalised, Work& work,
                         std::function<bool(const Box& gained)> may_cover = {},
                         std::function<bool(Vec3 from, Vec3 to)> is_shared = {});
 

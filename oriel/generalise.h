@@ -98,7 +98,7 @@ struct GeneralisedBuilding {
   std::vector<Issue> issues;
   /// What it was drawn from, if it was open (G420) or its own solid could not be written as a valid
   /// one (G417).
-  std::optional<PipelineResult> repaired;
+  std::shared_ptr<const PipelineResult> repaired{};
   /// It is one of a group that became one building (GeneraliseOptions::groups): it leads it, and
   /// its one level is the group's block, or it is gone from the file.
   bool leads_group = false, is_gone = false;

@@ -379,7 +379,7 @@ using FineParts = std::map<std::pair<FeatureId, std::string>, FinePart>;
 
 /// That the feature was to change and was refused, or nothing.
 std::string refusal_of(FeatureId feature, const Generalised& generalised) {
-  const auto found = std::ranges::find(generalised.refused, feature, &CarriedOut::Refused::feature);
+  const auto found = std::ranges::find(generalised.refused, feature, &RefusedStep::feature);
   return found == generalised.refused.end() ? "" : "it was refused, " + to_string(found->code);
 }
 

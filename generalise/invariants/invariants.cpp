@@ -10,6 +10,7 @@
 #include "model/vec3.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -21,25 +22,28 @@ namespace oriel {
 
 namespace {
 
-/// Planes that are fitted anew move by millimetres.
-constexpr double kBoxSlack_m = 0.01;
-
-double change_pct(double before, double after) {
-  return before > 0 ? 100 * std::abs(after - before) / before : 0;
-}
-
 /// `what`: "the volume would change".
 Violation beyond_limit(std::string_view what, double by, double limit, std::string_view unit) {
   return {Code::G405,
           fmt::format("{} by {:.3g} {}, more than {:g} {}", what, by, unit, limit, unit)};
 }
 
+/// What changed by more percent than it may.
+std::optional<Violation> changed(std::string_view what, double before, double after,
+                                 std::optional<double> limit_pct) {
+  const double by_pct = before > 0 ? 100 * std::abs(after - before) / before : 0;
+  if (!limit_pct || by_pct <= *limit_pct) return std::nullopt;
+  return beyond_limit(what, by_pct, *limit_pct, "%");
+}
+
 /// Of the lines at their main height less than half is left there.
-bool loses(const std::vector<LevelLine>& before, const std::vector<LevelLine>& after,
-           double within_m) {
-  const auto height_m = main_height_m(before);
-  return height_m &&
-         length_near_m(after, *height_m, within_m) < length_near_m(before, *height_m, within_m) / 2;
+std::optional<Violation> lost(std::string_view what, const std::vector<LevelLine>& before,
+                              const std::vector<LevelLine>& after, std::optional<double> within_m) {
+  const auto height_m = within_m ? main_height_m(before) : std::nullopt;
+  if (!height_m ||
+      length_near_m(after, *height_m, *within_m) >= length_near_m(before, *height_m, *within_m) / 2)
+    return std::nullopt;
+  return Violation{Code::G405, fmt::format("its {} would move by more than {} m", what, *within_m)};
 }
 
 double shared_m2(const Solid& solid, const PartyWall& wall) {
@@ -90,15 +94,65 @@ bool is_level(Vec3 p, Vec3 q) {
   return std::abs(along.z) <= kLevel * length(along);
 }
 
-}  // namespace
-
-bool reaches_out(const Box& before, const Box& after, double slack_m) {
-  const Vec3 slack{slack_m, slack_m, slack_m};
-  Box both{before.min - slack, before.max + slack};
-  const Box grown = both;
-  both.grow(after);
-  return !(both == grown);
+std::optional<Violation> pieces(const Measures& before, const Measures& after,
+                                const Limits& /*limits*/) {
+  return falls_apart(before, after);
 }
+
+std::optional<Violation> overhang(const Measures& before, const Measures& after,
+                                  const Limits& limits) {
+  const double hanging_m2 = after.overhang_m2 - before.overhang_m2;
+  if (!limits.overhang_pct || hanging_m2 <= *limits.overhang_pct / 100 * before.footprint_m2)
+    return std::nullopt;
+  return Violation{Code::G411, fmt::format("{:.2f} m2 would hang in the air", hanging_m2)};
+}
+
+std::optional<Violation> box(const Measures& before, const Measures& after, const Limits& limits) {
+  return limits.overhang_pct ? reaches_out(before, after, kBoxSlack_m) : std::nullopt;
+}
+
+std::optional<Violation> footprint(const Measures& before, const Measures& after,
+                                   const Limits& limits) {
+  return changed("the footprint would change", before.footprint_m2, after.footprint_m2,
+                 limits.footprint_pct);
+}
+
+std::optional<Violation> volume(const Measures& before, const Measures& after,
+                                const Limits& limits) {
+  return changed("the volume would change", before.volume_m3, after.volume_m3, limits.volume_pct);
+}
+
+std::optional<Violation> party_wall(const Measures& before, const Measures& after,
+                                    const Limits& limits) {
+  return changed("its party walls would change", before.party_walls_m2, after.party_walls_m2,
+                 limits.party_walls_pct);
+}
+
+std::optional<Violation> top(const Measures& before, const Measures& after, const Limits& limits) {
+  const double top_m = std::abs(after.box.max.z - before.box.max.z);
+  if (!limits.top_m || top_m <= *limits.top_m) return std::nullopt;
+  return beyond_limit("its highest point would move", top_m, *limits.top_m, "m");
+}
+
+std::optional<Violation> ridge(const Measures& before, const Measures& after,
+                               const Limits& limits) {
+  return lost("ridge", before.roof.ridges, after.roof.ridges, limits.ridge_m);
+}
+
+std::optional<Violation> eaves(const Measures& before, const Measures& after,
+                               const Limits& limits) {
+  return lost("eaves", before.roof.eaves, after.roof.eaves, limits.eaves_m);
+}
+
+constexpr std::array kInvariants{
+    Invariant{"pieces", pieces}, Invariant{"overhang", overhang},
+    Invariant{"box", box},       Invariant{"footprint", footprint},
+    Invariant{"volume", volume}, Invariant{"party walls", party_wall},
+    Invariant{"top", top},       Invariant{"ridge", ridge},
+    Invariant{"eaves", eaves},
+};
+
+}  // namespace
 
 Measures measures_of(const Solid& solid, const Invariants& invariants) {
   Measures out;
@@ -119,43 +173,30 @@ Measures measures_of(const Solid& solid, const Invariants& invariants) {
   return out;
 }
 
+std::span<const Invariant> all_invariants() { return kInvariants; }
+
 std::optional<Violation> violation(const Measures& before, const Measures& after,
                                    const Invariants& invariants) {
-  const Limits& limits = invariants.limits;
-  if (after.lumps > before.lumps) return Violation{Code::G411, "the building would fall apart"};
-  const double hanging_m2 = after.overhang_m2 - before.overhang_m2;
-  if (limits.overhang_pct && hanging_m2 > *limits.overhang_pct / 100 * before.footprint_m2)
-    return Violation{Code::G411, fmt::format("{:.2f} m2 would hang in the air", hanging_m2)};
-  if (limits.overhang_pct && reaches_out(before.box, after.box, kBoxSlack_m))
-    return Violation{Code::G412, "the building would reach further than it did"};
-  const double footprint = change_pct(before.footprint_m2, after.footprint_m2);
-  if (limits.footprint_pct && footprint > *limits.footprint_pct)
-    return beyond_limit("the footprint would change", footprint, *limits.footprint_pct, "%");
-  const double volume = change_pct(before.volume_m3, after.volume_m3);
-  if (limits.volume_pct && volume > *limits.volume_pct)
-    return beyond_limit("the volume would change", volume, *limits.volume_pct, "%");
-  const double party_walls = change_pct(before.party_walls_m2, after.party_walls_m2);
-  if (limits.party_walls_pct && party_walls > *limits.party_walls_pct)
-    return beyond_limit("its party walls would change", party_walls, *limits.party_walls_pct, "%");
-  const double top_m = std::abs(after.box.max.z - before.box.max.z);
-  if (limits.top_m && top_m > *limits.top_m)
-    return beyond_limit("its highest point would move", top_m, *limits.top_m, "m");
-  if (limits.ridge_m && loses(before.roof.ridges, after.roof.ridges, *limits.ridge_m))
-    return Violation{Code::G405,
-                     fmt::format("its ridge would move by more than {} m", *limits.ridge_m)};
-  if (limits.eaves_m && loses(before.roof.eaves, after.roof.eaves, *limits.eaves_m))
-    return Violation{Code::G405,
-                     fmt::format("its eaves would move by more than {} m", *limits.eaves_m)};
+  for (const Invariant& one : kInvariants)
+    if (auto broken = one.violation(before, after, invariants.limits)) return broken;
   return std::nullopt;
 }
 
-bool may_go_on(Work* work, const Solid& solid, std::int64_t steps) {
-  if (work == nullptr) return true;
-  std::int64_t corners = 0;
-  for (const Facet& facet : solid.facets)
-    for (const Loop& loop : facet.loops) corners += std::ssize(loop);
-  work->add(steps * corners);
-  return !work->is_used_up();
+Violation fallen_apart() { return {Code::G411, "the building would fall apart"}; }
+
+std::optional<Violation> falls_apart(const Measures& before, const Measures& after) {
+  if (after.lumps <= before.lumps) return std::nullopt;
+  return fallen_apart();
+}
+
+std::optional<Violation> reaches_out(const Measures& before, const Measures& after,
+                                     double slack_m) {
+  const Vec3 slack{slack_m, slack_m, slack_m};
+  Box both{before.box.min - slack, before.box.max + slack};
+  const Box grown = both;
+  both.grow(after.box);
+  if (both == grown) return std::nullopt;
+  return Violation{Code::G412, "the building would reach further than it did"};
 }
 
 std::vector<PartyWall> party_walls(const Building& building, const Solid& solid,

@@ -1,21 +1,15 @@
 #pragma once
 
-#include "generalise/needs.h"
 #include "kernel/base/code.h"
-#include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 #include "model/building.h"
-#include "model/cell_complex.h"
 #include "model/plan.h"
 #include "model/solid.h"
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -60,40 +54,12 @@ std::vector<PartyWall> party_walls(const Building& building, const Solid& solid,
 /// The area of the solid's facets that lies against the walls.
 double shared_m2(const Solid& solid, const std::vector<PartyWall>& walls);
 
-/// Whether a solid is fit to be written.
-enum class Fitness {
-  unfit,
-  as_it_came,  ///< not valid, but the building was not valid either
-  valid
-};
-
 /// What changed that must not.
 struct Violation {
   /// G411: of what stays something would hang in the air; G412: it would reach out of its box; else
   /// G405.
   Code code = Code::none;
   std::string sentence;  ///< "the footprint would change by 2.10 %"
-};
-
-/// Says how fit a solid is. That takes longer than cutting, and whoever writes checks anyway.
-struct SolidValidator {
-  std::function<Fitness(const Solid&)> fitness_of{};
-  /// If given, what must not change that has: what would do that does not go as cells.
-  std::function<std::optional<Violation>(const Solid&)> violation_of{};
-  /// What is left after cuts is checked also if all of them went well.
-  bool is_thorough = false;
-  /// Features that went together before, ascending: they are tried first.
-  std::vector<FeatureId> settled{};
-  /// As Invariants::work.
-  Work* work = nullptr;
-  /// Keeps the cell complex of the segmentation from the first time that it is asked for, for all
-  /// that is tried with it; null: nothing is kept.
-  std::shared_ptr<std::optional<CellComplex>> complex{};
-  /// Keeps what hinders operators, by feature, from the first time that they are refused; null: it
-  /// is not looked for.
-  std::shared_ptr<std::map<FeatureId, Hindrance>> hindrances{};
-
-  explicit operator bool() const { return static_cast<bool>(fitness_of); }
 };
 
 /// What must not change by generalising.
@@ -104,25 +70,7 @@ struct Invariants {
   /// No edge that is drawn may be shorter (short_edges_of_drawn), and none that tells of a piece
   /// torn off (new_short_edges); 0: it may.
   double least_edge_m = 0;
-  /// Features that may go whatever edges that leaves. Ascending.
-  std::vector<FeatureId> settled{};
-  /// If given, what has no cut of its own goes as cells where that leaves what this calls fit
-  /// (remove_cells).
-  SolidValidator validator{};
-  /// If given, what is done is counted in it; once it is used up nothing more is tried, and what
-  /// was not carried out by then is refused (E502).
-  Work* work = nullptr;
 };
-
-/// Why a feature stays for which there was no work left (E502).
-inline constexpr const char* kNoWorkLeft = "the work budget is used up";
-
-/// False also if no work is given.
-inline bool is_used_up(const Work* work) { return work != nullptr && work->is_used_up(); }
-
-/// Counts work on a solid, `steps` for each of its corners, in `work`, if that is given. False once
-/// it is used up.
-bool may_go_on(Work* work, const Solid& solid, std::int64_t steps);
 
 /// Facets that look down are ground if they lie no higher than this over the lowest point.
 inline constexpr double kGroundReach_m = 0.5;
@@ -142,15 +90,38 @@ struct Measures {
   double party_walls_m2 = 0;
 };
 
-/// A box that `before`, larger by `slack_m` on all sides, does not hold.
-bool reaches_out(const Box& before, const Box& after, double slack_m);
-
 Measures measures_of(const Solid& solid, const Invariants& invariants = {});
 
-/// What changed that must not, or nothing. It must never fall into more pieces than it was. The
-/// main ridge and the main eaves (main_height_m) change if less than half of their length is left
-/// at their height, give or take the limit; a roof without ridge, as a pyramid, has none to lose.
+/// One thing that must not change: what is violated between before and after, or nothing.
+struct Invariant {
+  std::string_view name;
+  std::optional<Violation> (*violation)(const Measures& before, const Measures& after,
+                                        const Limits& limits);
+};
+
+/// All of them, in the order in which they are asked:
+///
+/// - pieces: it never falls into more than it was (G411)
+/// - overhang: what hangs in the air that did not (G411)
+/// - box: it reaches no further than it did, by more than `kBoxSlack_m` (G412)
+/// - footprint, volume, party walls, top: by no more than the limit (G405)
+/// - ridge, eaves: the main one (main_height_m) changes if less than half of its length is left at
+///   its height, give or take the limit (G405); a roof without ridge, as a pyramid, has none to
+///   lose
+std::span<const Invariant> all_invariants();
+
+/// The first of them that is violated.
 std::optional<Violation> violation(const Measures& before, const Measures& after,
                                    const Invariants& invariants);
+
+/// The violation G411 of what falls into more pieces than it was.
+Violation fallen_apart();
+std::optional<Violation> falls_apart(const Measures& before, const Measures& after);
+
+/// The violation G412 of what reaches out of its box by more than `slack_m`.
+std::optional<Violation> reaches_out(const Measures& before, const Measures& after, double slack_m);
+
+/// Planes that are fitted anew move by millimetres.
+inline constexpr double kBoxSlack_m = 0.01;
 
 }  // namespace oriel

@@ -111,6 +111,16 @@ class FacadeDisplacer {
 
 }  // namespace
 
+/// The operator `displace`: the openings of a facade move apart (paper 5.1, "displacement").
+///
+/// `{displace: {to: LENGTH, gap: LENGTH}}`: those of one wall plane, recessed, flush or proud, move
+/// until `gap` lies between them, and between them and what else is on the wall and its ends; with
+/// `to` they grow first, about their centres, to at least that width. Their order is kept, rows
+/// stay rows, and the sum of the squared shifts is the least there is (FacadeRoom::arrange). Sizes
+/// and depths stay. Takes some (OperatorScope::wall): an opening that need not move stays as it
+/// is, as do those that have no room, which the others then keep off. Precondition: what moves is a
+/// recess, a block that is a box, or an outline. Touches: the wall's facet. Inverse: omit, and the
+/// openings that the segmentation still has.
 Placed displace(const Redrawing& task) {
   const double to_m = task.number("to", 0);
   Placed out{task.solid, {}, false};
@@ -128,10 +138,7 @@ Placed displace(const Redrawing& task) {
           {i, "only recesses, blocks that are boxes and outlines can be displaced", false, {}});
       continue;
     }
-    const double more = std::max(0.0, to_m - now.width());
-    Extents wished = now;
-    wished.u0 -= more / 2;
-    wished.u1 += more / 2;
+    const Extents wished = grown(now, std::max(0.0, to_m - now.width()), 0);
     facades.try_emplace(host->facet, *host, std::vector<FacadeMember>{})
         .first->second.second.push_back({i, now, wished, *depth_m});
   }

@@ -85,20 +85,14 @@ void FacadeRoom::add_outline(const Extents& box, FeatureId imprint) {
 /// Of an edge: the smallest feature that has the facet on its other side.
 FeatureId FacadeRoom::owner(const FacadeLine& line) const {
   if (line.from < 0) return line.imprint;
-  const auto has_edge = [&](const Loop& loop) {
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      if (loop[i] == line.to && loop[(i + 1) % loop.size()] == line.from) return true;
-    return false;
-  };
-  const auto facet = std::ranges::find_if(solid_->facets, [&](const Facet& other) {
-    return std::ranges::any_of(other.loops, has_edge);
-  });
+  const auto found = facet_with_edge(*solid_, line.to, line.from);
   FeatureId owner;
-  if (facet == solid_->facets.end() || facet->polygons.empty()) return owner;
+  if (!found || solid_->facets[found->index()].polygons.empty()) return owner;
+  const std::vector<int>& polygons = solid_->facets[found->index()].polygons;
   std::size_t least = 0;
   for (int f = 0; f < std::ssize(segmentation_->features); ++f) {
     const auto& its = segmentation_->features[at(f)].source_polygons;
-    if (!std::ranges::includes(its, facet->polygons)) continue;
+    if (!std::ranges::includes(its, polygons)) continue;
     if (owner.is_valid() && its.size() >= least) continue;
     owner = {f};
     least = its.size();

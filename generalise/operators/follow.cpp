@@ -85,11 +85,7 @@ std::optional<FacetId> facet_across(const Solid& solid, const Host& host, const 
       const bool is_there = std::abs(dot(p, side.out) - side.at) < kOnEdge_m &&
                             std::abs(dot(q, side.out) - side.at) < kOnEdge_m &&
                             dot(q - p, along) > 0 && dot(p, along) < last && dot(q, along) > first;
-      if (!is_there) continue;
-      for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
-        for (const Loop& other : solid.facets[f.index()].loops)
-          for (std::size_t j = 0; j < other.size(); ++j)
-            if (other[j] == b && other[(j + 1) % other.size()] == a) return f;
+      if (is_there) return facet_with_edge(solid, b, a);
     }
   return std::nullopt;
 }
@@ -179,7 +175,7 @@ DrawnCorners drawn_corners(const Solid& solid, const Segmentation& segmentation,
 }
 
 Followed follow(const Solid& solid, const Segmentation& segmentation, const Follower& follower,
-                const DrawnCorners& drawn, const std::vector<FeatureId>& own, bool tells_beside) {
+                const DrawnCorners& drawn, const std::vector<FeatureId>& own) {
   const Feature& feature = segmentation.features[follower.feature.index()];
   // Its facet is looked for where it goes.
   auto host = feature.planes.empty() ? std::nullopt
@@ -207,7 +203,7 @@ Followed follow(const Solid& solid, const Segmentation& segmentation, const Foll
   clearance.own = facets_of(solid, segmentation, own);
   Followed out{raise_box(solid, *found, where, clearance, feature.source_polygons),
                box_of(*found, where)};
-  if (!out.placed.solid && tells_beside)
+  if (!out.placed.solid)
     out.beside = FacadeRoom(solid, segmentation, *found).beside(where, follower.gap_m);
   return out;
 }

@@ -48,6 +48,6 @@ struct Followed {
 /// found there, it would leave that or come nearer than the gap to another part, unless it was as
 /// near to that; if it moves and the openings became one strip. Its facets have its polygons.
 Followed follow(const Solid& solid, const Segmentation& segmentation, const Follower& follower,
-                const DrawnCorners& drawn, const std::vector<FeatureId>& own, bool tells_beside);
+                const DrawnCorners& drawn, const std::vector<FeatureId>& own);
 
 }  // namespace oriel::detail

@@ -38,12 +38,7 @@ std::optional<FacetId> level_at_foot(const Solid& solid, const Host& host, const
       const bool is_low = std::abs(dot(p, host.v) - where.v0) < kOnEdge_m &&
                           std::abs(dot(q, host.v) - where.v0) < kOnEdge_m;
       if (!is_low || dot(p, host.u) > middle || dot(q, host.u) < middle) continue;
-      for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
-        for (const Loop& other : solid.facets[f.index()].loops)
-          for (std::size_t j = 0; j < other.size(); ++j)
-            if (other[j] == b && other[(j + 1) % other.size()] == a &&
-                std::abs(solid.planes[solid.facets[f.index()].plane.index()].normal.z) > 0.9)
-              return f;
+      if (const auto level = facet_with_edge(solid, b, a, 0.9)) return level;
     }
   return std::nullopt;
 }
@@ -142,11 +137,29 @@ std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point) 
   return std::nullopt;
 }
 
+std::optional<FacetId> facet_with_edge(const Solid& solid, int from, int to, double steeper_than) {
+  for (const FacetId f : ids_below<FacetId>(solid.facets.size()))
+    for (const Loop& loop : solid.facets[f.index()].loops)
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        if (loop[i] == from && loop[(i + 1) % loop.size()] == to &&
+            std::abs(solid.planes[solid.facets[f.index()].plane.index()].normal.z) > steeper_than)
+          return f;
+  return std::nullopt;
+}
+
 std::optional<Host> wall_axes(const Plane& plane) {
   if (!looks_aside(plane.normal)) return std::nullopt;
   Host host{{}, plane, normalised(cross(kUp, plane.normal)), {}, plane.normal};
   host.v = cross(host.n, host.u);
   return host;
+}
+
+Extents grown(Extents box, double more_u, double more_v, bool is_on_sill) {
+  box.u0 -= more_u / 2;
+  box.u1 += more_u / 2;
+  box.v0 -= is_on_sill ? 0 : more_v / 2;
+  box.v1 += is_on_sill ? more_v : more_v / 2;
+  return box;
 }
 
 Extents united(const Extents& one, const Extents& other) {

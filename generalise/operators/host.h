@@ -29,6 +29,11 @@ inline constexpr double kOnEdge_m = 0.002;
 /// The facet of `plane` that has the point in it, or nothing.
 std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point);
 
+/// The facet that has the directed edge, of those whose normal rises or falls by more than
+/// `steeper_than`.
+std::optional<FacetId> facet_with_edge(const Solid& solid, int from, int to,
+                                       double steeper_than = -1);
+
 /// The axes of a wall, nothing of other planes; its facet is not looked for.
 std::optional<Host> wall_axes(const Plane& plane);
 
@@ -41,6 +46,8 @@ struct Extents {
   /// How far it reaches from the plane to either side.
   [[nodiscard]] double depth() const { return std::max(out1, -out0); }
 };
+/// Wider by `more_u`, to either side, and higher by `more_v`, to either side or above the sill.
+Extents grown(Extents box, double more_u, double more_v, bool is_on_sill = false);
 /// Those that have both in them.
 Extents united(const Extents& one, const Extents& other);
 Extents extents_of(const Host& host, std::span<const Vec3> points);
@@ -62,8 +69,8 @@ struct Placed {
     Hindrance hindrance{};
   };
   std::vector<LeftMember> left{};
-  /// Of a row: the members that are still there, if not the first ones.
-  std::vector<std::size_t> stays{};
+  /// The members that are still there; not given: all.
+  std::optional<std::vector<std::size_t>> stays{};
 };
 
 /// A recess or a block with the outline u0…u1 × v0…v1 on a host and the given depth; its facets get

@@ -14,34 +14,15 @@ namespace oriel {
 
 namespace {
 
-constexpr double kHalf = 0.5;
-
 /// As many features are cut off a copy of the solid in a step for each of its corners.
 constexpr std::int64_t kCutsPerStep = 4;
 
-bool is_never_for_groups(const Step& /*step*/) { return false; }
-bool is_always_for_groups(const Step& /*step*/) { return true; }
-
-std::size_t keeps_none(const std::vector<Step>& /*steps*/) { return 0; }
-std::size_t keeps_all(const std::vector<Step>& steps) { return steps.size(); }
-std::size_t keeps_first(const std::vector<Step>& /*steps*/) { return 1; }
-std::size_t keeps_ratio(const std::vector<Step>& steps) {
-  const auto ratio = steps[0].numbers.find("ratio");
-  return typified_count(steps.size(), ratio == steps[0].numbers.end() ? kHalf : ratio->second);
-}
-
+#define ORIEL_ROW(name, scope, turn, ...) \
+  Operator{#name, name, OperatorScope::scope, OperatorTurn::turn},
 constexpr std::array kOperators{
-    Operator{"omit", nullptr, 0, is_never_for_groups, keeps_none},
-    Operator{"merge", merge, 0, is_never_for_groups, keeps_all},
-    Operator{"enlarge", enlarge, 0, is_never_for_groups, keeps_all},
-    Operator{"symbolise", symbolise, 0, is_never_for_groups, keeps_all},
-    Operator{"aggregate", aggregate, 0, [](const Step& step) { return !becomes_block(step); },
-             keeps_first},
-    Operator{"typify", typify, 0, is_always_for_groups, keeps_ratio},
-    Operator{"displace", displace, 0, is_always_for_groups, keeps_all, true},
-    Operator{"flatten", flatten, 1, is_never_for_groups, keeps_none},
-    Operator{"collapse", collapse, 2, is_never_for_groups, keeps_all},
-};
+    Operator{"omit", nullptr, OperatorScope::feature, OperatorTurn::features},
+    ORIEL_OPERATORS(ORIEL_ROW)};
+#undef ORIEL_ROW
 
 /// Nothing is taken off, as there is no work left for it.
 Remainder nothing_taken_off(const Solid& solid, const std::vector<FeatureId>& features) {
@@ -77,26 +58,25 @@ const Operator& operator_named(std::string_view name) {
   return *found;
 }
 
-Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-               const SegmentOptions& options, const SolidValidator& validator) {
-  const double half_m3 = volume_m3(solid) / 2;
+Remainder omit(const RedrawContext& context, const Plan& plan) {
+  const double half_m3 = volume_m3(context.solid) / 2;
   std::vector<FeatureId> features;
   std::vector<Refusal> refused;
   for (const Step& step : plan.steps) {
     if (step.operation != "omit") continue;
-    const Feature& feature = segmentation.features[step.feature.index()];
+    const Feature& feature = context.feature(step.feature);
     if (feature.sense == Sense::protrusion && feature.volume_m3 > half_m3)
       refused.push_back({step.feature, "more than half of the building would go"});
     else
       features.push_back(step.feature);
   }
-  if (!may_go_on(validator.work, solid, 1 + std::ssize(features) / kCutsPerStep))
-    return nothing_taken_off(solid, features);
-  Remainder remainder = remove_features(solid, segmentation, features, options, validator.work);
-  if (validator)
-    remainder = remove_cells(solid, segmentation, std::move(remainder), validator,
-                             kGapOnMap_m * plan.scale, options);
-  remainder = fill_rings(segmentation, std::move(remainder), validator, options);
+  if (!context.may_go_on(context.solid, 1 + std::ssize(features) / kCutsPerStep))
+    return nothing_taken_off(context.solid, features);
+  Remainder remainder =
+      remove_features(context.solid, context.segmentation, features, context.options, context.work);
+  if (context.judge != nullptr)
+    remainder = remove_cells(context, std::move(remainder), kGapOnMap_m * plan.scale);
+  remainder = fill_rings(context, std::move(remainder));
   remainder.refused.insert(remainder.refused.end(), refused.begin(), refused.end());
   std::ranges::sort(remainder.refused, {}, &Refusal::feature);
   return remainder;

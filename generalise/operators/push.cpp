@@ -18,16 +18,11 @@ namespace {
 
 /// What the step asks for (enlarge); nothing if it is large enough.
 std::optional<Extents> asked_for(const Redrawing& task, const Host& host) {
-  Extents box = extents_of(host, task.segmentation, task.feature());
+  const Extents box = extents_of(host, task.segmentation, task.feature());
   const double more_u = std::max(0.0, task.to_m() - box.width());
   const double more_v = std::max(0.0, task.to_m() - box.height());
   if (more_u == 0 && more_v == 0) return std::nullopt;
-  const bool is_on_sill = task.word("anchor", "centre") == "sill";
-  box.u0 -= more_u / 2;
-  box.u1 += more_u / 2;
-  box.v0 -= is_on_sill ? 0 : more_v / 2;
-  box.v1 += is_on_sill ? more_v : more_v / 2;
-  return box;
+  return grown(box, more_u, more_v, task.word("anchor", "centre") == "sill");
 }
 
 /// Where the feature has been drawn on a solid: all of the facets that have its polygons.

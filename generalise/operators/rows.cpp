@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace oriel {
 
@@ -118,12 +119,8 @@ Placed thinned_out(const MemberRow& row, std::size_t count, double wider, double
     // The ends of the row stay; of a single one there is none in the middle of two.
     const std::size_t member =
         count == 1 ? (n - 1) / 2 : (2 * i * (n - 1) + count - 1) / (2 * (count - 1));
-    Extents where = row.members[member];
-    const double more_u = where.width() * (wider - 1), more_v = where.height() * (higher - 1);
-    where.u0 -= more_u / 2;
-    where.u1 += more_u / 2;
-    where.v0 -= more_v / 2;
-    where.v1 += more_v / 2;
+    const Extents& now = row.members[member];
+    const Extents where = grown(now, now.width() * (wider - 1), now.height() * (higher - 1));
     const Feature& feature = row.task.feature(member);
     placed = put_next(row, placed, where, row.depths[member], feature.sense, feature);
     if (!placed.solid) return placed;
@@ -174,6 +171,7 @@ Placed strip(const MemberRow& row, const Solid& solid, std::size_t first, std::s
 Placed strips(const MemberRow& row) {
   const std::size_t n = row.members.size();
   Placed all = strip(row, row.task.solid, 0, n);
+  all.stays = {0};
   if (all.solid || n == 2) return all;
   Placed placed{row.task.solid, {}};
   std::vector<std::size_t> stays;
@@ -205,6 +203,18 @@ bool becomes_block(const Step& step) {
   return step.operation == "aggregate" && into != step.words.end() && into->second == "block";
 }
 
+/// The operator `aggregate`: the openings of one storey on one facade become a strip (paper 5.1,
+/// "aggregation").
+///
+/// `{aggregate: {into: block}}` is for a slab with its parapet: the box around the feature and all
+/// that sits on it takes their place. `{aggregate: {into: strip, gap: LENGTH}}`: the strip is of
+/// the kind of most of them (recess, block or outline), as wide as all of them together from the
+/// first to the last, with the area of all of them (so it is lower), about the middle of their
+/// heights, and with their mean depth. It stands for the first of them along the wall; the others
+/// are gone. Where something divides the row there is a strip on either side of it, and what is
+/// alone between others stays as it is. Precondition: at least two, of one class, storey and wall
+/// plane, each a recess in a wall, a block that is a box, or an outline. Touches: the wall's facet.
+/// Inverse: omit, and the recesses that the segmentation still has.
 Placed aggregate(const Redrawing& task) {
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall is no longer found"};
@@ -221,6 +231,16 @@ std::size_t typified_count(std::size_t n, double ratio) {
   return static_cast<std::size_t>(std::max(1.0, std::round(static_cast<double>(n) * ratio)));
 }
 
+/// The operator `typify`: many openings of a row become fewer and larger ones (paper 5.1,
+/// "typification").
+///
+/// `{typify: {ratio: NUMBER, gap: LENGTH}}`. Of n openings m = n · ratio stay, rounded and at least
+/// one. Each has the mean width and height of the n, times √(n / m): the area and the aspect stay.
+/// They stand at equal distances from the first to the last edge of the row, at the mean height of
+/// its middle. The first m of the row stand for them; the others are gone. Where something stands
+/// in the way, m of the row stay at their own places, the ends among them, and grow as far as there
+/// is room. Precondition: at least two, as for aggregate, and m < n. Touches: the wall's facet.
+/// Inverse: omit, and the recesses that the segmentation still has.
 Placed typify(const Redrawing& task) {
   const std::size_t n = task.steps.size();
   const std::size_t m = typified_count(n, task.number("ratio", 0.5));
@@ -245,7 +265,10 @@ Placed typify(const Redrawing& task) {
   const double most = std::sqrt(static_cast<double>(n) / static_cast<double>(m)) - 1;
   for (int part = kParts; part >= 0; --part) {
     Placed placed = typified(*row, means, m, 1 + most * part / kParts);
-    if (placed.solid) return placed;
+    if (!placed.solid) continue;
+    placed.stays.emplace(m);
+    std::iota(placed.stays->begin(), placed.stays->end(), std::size_t{0});
+    return placed;
   }
   return thinned_out(*row, m, most);
 }

@@ -158,9 +158,7 @@ Placed balcony(const Redrawing& task, const Host& host) {
   Extents where = extents_of(host, task.segmentation, feature);
   const Clearance clearance = clearance_after(host, task.gap_m(), {where});
   const double to_m = task.to_m();
-  const double more = std::max(0.0, to_m - where.width());
-  where.u0 -= more / 2;
-  where.u1 += more / 2;
+  where = grown(where, std::max(0.0, to_m - where.width()), 0);
   const double depth_m = std::max(where.out1, to_m / 2);
   where.v1 = where.v0 + std::min(where.height(), feature.volume_m3 / (where.width() * depth_m));
   return place_box(task.solid, host, where, depth_m, Attach::raise, clearance,
@@ -181,6 +179,10 @@ bool carries_outline(const Redrawing& task, const Host& host) {
 
 }  // namespace
 
+/// Makes a feature part of its host: its shape stays, but its facets are named by their slope, and
+/// it is no object of its own any more. `task.solid` is the solid with the feature still on it.
+///
+/// Refused if no facet is made of the feature's polygons alone.
 Placed merge(const Redrawing& task) {
   Solid solid = task.solid;
   const std::vector<int>& its = task.feature().source_polygons;  // sorted
@@ -194,6 +196,16 @@ Placed merge(const Redrawing& task) {
   return {std::move(solid), {}};
 }
 
+/// The operator `enlarge`: a feature becomes as large as can be seen (paper 5.1, "enlargement"): an
+/// opening, or a slab that is too thin.
+///
+/// `{enlarge: {to: LENGTH, anchor: sill|centre, gap: LENGTH}}`: width and height become at least
+/// `to`; the sill stays where it is, or the centre does. Where host margin or neighbours leave no
+/// room for all of it, it grows as far as eighths of the way allow, else in one direction only.
+/// Precondition: a recess in a wall, a block that is a box, or an outline (box_depth), on a facet
+/// that is found again; some growth is possible. Touches: the wall's facet, and that of the ground
+/// or slab that it stands on. Depth, directions and the parallel pane stay.
+/// Inverse: omit, and the outline that the segmentation still has, sunk in or put on.
 Placed enlarge(const Redrawing& task) {
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall is no longer found"};
@@ -207,30 +219,40 @@ Placed enlarge(const Redrawing& task) {
   const double more_v = std::max(0.0, to_m - now.height());
   if (more_u == 0 && more_v == 0) return {std::nullopt, "it is large enough", true};
   const bool is_on_sill = task.word("anchor", "centre") == "sill";
-  const auto grown = [&](double u, double v) {
-    Extents then = now;
-    then.u0 -= u / 2;
-    then.u1 += u / 2;
-    then.v0 -= is_on_sill ? 0 : v / 2;
-    then.v1 += is_on_sill ? v : v / 2;
-    return place_like(task.solid, task.segmentation, *host, then, *depth_m, feature.sense,
-                      clearance_after(*host, task.gap_m(), {now}), feature);
+  const auto drawn = [&](double u, double v) {
+    return place_like(task.solid, task.segmentation, *host, grown(now, u, v, is_on_sill), *depth_m,
+                      feature.sense, clearance_after(*host, task.gap_m(), {now}), feature);
   };
   constexpr int kParts = 8;
   Placed placed;
   for (int part = kParts; part > 0; --part) {
-    placed = grown(more_u * part / kParts, more_v * part / kParts);
+    placed = drawn(more_u * part / kParts, more_v * part / kParts);
     if (placed.solid) return placed;
   }
   // Where it has room in one direction only it grows in that one.
   for (int part = kParts; part > 0 && more_u > 0 && more_v > 0; --part)
     for (const bool is_wider : {true, false}) {
-      Placed one = is_wider ? grown(more_u * part / kParts, 0) : grown(0, more_v * part / kParts);
+      Placed one = is_wider ? drawn(more_u * part / kParts, 0) : drawn(0, more_v * part / kParts);
       if (one.solid) return one;
     }
   return placed;
 }
 
+/// The operator `symbolise`: a template takes the place of a feature, fitted to its size (paper
+/// 5.1, "symbolisation").
+///
+/// `{symbolise: {with: TEMPLATE, to: LENGTH, gap: LENGTH}}`; sides are at least `to` long.
+///  - chimney_block: an upright block on the roof with a flat top at the feature's top, its base
+///    around the middle of the feature;
+///  - dormer_box: a box with an upright front where the feature's was and a flat top at its top,
+///    which runs back into the roof;
+///  - balcony_box: a slab at the wall at the feature's bottom, as wide and as deep as it, with its
+///    volume.
+/// Precondition: a protrusion whose roof or wall is found again; there is room for the template on
+/// that facet or, on a roof, across its edges. A chimney block that does not fit in its place moves
+/// by no more than half of its sides. Touches: the facets under it. New directions: up; others only
+/// if no wall looks within 45 degrees of where the eaves run or the roof falls: these. Inverse:
+/// omit, and the feature's cells, which the segmentation still has.
 Placed symbolise(const Redrawing& task) {
   const auto host = task.host();
   if (!host) return {std::nullopt, "its roof or wall is no longer found"};
@@ -245,6 +267,12 @@ Placed symbolise(const Redrawing& task) {
   return with == "dormer_box" ? template_box.dormer() : template_box.chimney();
 }
 
+/// The operator `collapse`: a recess, or what sticks out, loses its depth and leaves
+/// its outline on its wall or roof as an imprint (paper 5.1; design, "collapse to imprint").
+///
+/// Precondition: its facet is found again and the outline, the rectangle around it in that facet,
+/// lies inside. Touches: that facet, which is split along the outline. Inverse: omit, and the
+/// feature's cells, which the segmentation still has.
 Placed collapse(const Redrawing& task) {
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall or roof is no longer found"};
@@ -253,16 +281,28 @@ Placed collapse(const Redrawing& task) {
   return draw_outline(task.solid, *host, extents_of(*host, task.segmentation, feature), feature);
 }
 
+/// The operator `flatten`: what is thin and lies flat on its wall or roof goes into it (paper 5.1,
+/// Figure 7: a lamina, and a cap that reaches beyond what it lies on).
+///
+/// What juts out beyond its facet is trimmed. If the rest covers more than half of the facet, the
+/// facet takes its place: it moves outwards (of a recess inwards) by the feature's volume over its
+/// own area, so that upright on its neighbours the volume is kept. The feature is gone in either
+/// case. Precondition: it has depth; if its facet, which may have gone, is to move: it was split
+/// off by one plane, no outline that stays is on the facet, and it can move (move_facet). Touches:
+/// the facet and those around it. Inverse: the facet moves back, and the feature's cells, which the
+/// segmentation still has.
 Placed flatten(const Redrawing& task) {
   const Feature& feature = task.feature();
   if (feature.sense == Sense::imprint) return {std::nullopt, "it has no depth"};
   const auto host = task.host();
-  if (!host) return {task.solid, {}};  // what it lay on went, too
+  Placed gone{task.solid, {}};
+  gone.stays.emplace();
+  if (!host) return gone;  // what it lay on went, too
   const double facet_m2 =
       area_m2(task.solid.vertices, task.solid.facets[host->facet.index()], host->n);
   const bool is_most = feature.planes.size() == 1 && !feature.is_uncut &&
                        feature.new_area_m2 > kMostOfFacet * facet_m2;
-  if (!is_most) return {task.solid, {}};
+  if (!is_most) return gone;
   if (carries_outline(task, *host))
     return {std::nullopt, "an outline on its wall or roof would not move along"};
   const double depth_m = extents_of(*host, task.segmentation, feature).depth();
@@ -270,7 +310,9 @@ Placed flatten(const Redrawing& task) {
   const double by_m = trimmed_m3 / facet_m2;
   MovedFacet moved =
       move_facet(task.solid, host->facet, feature.sense == Sense::protrusion ? by_m : -by_m);
-  return {std::move(moved.solid), std::move(moved.reason)};
+  gone.solid = std::move(moved.solid);
+  gone.reason = std::move(moved.reason);
+  return gone;
 }
 
 }  // namespace oriel

@@ -1,5 +1,7 @@
 #include "generalise/removal/clear_edges.h"
 
+#include "generalise/invariants/fineness.h"
+#include "generalise/invariants/stays.h"
 #include "kernel/attach/drop_facet.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
@@ -20,31 +22,33 @@ constexpr std::int64_t kStepsPerDrop = 32;
 
 class EdgeClearer {
  public:
-  EdgeClearer(Solid solid, const ClearOrder& order, const SolidValidator& validator)
-      : solid_(std::move(solid)), order_(order), validator_(validator) {}
+  EdgeClearer(const RedrawContext& context, Generalised drawn)
+      : context_(context),
+        drawn_(std::move(drawn)),
+        staying_(context.segmentation, drawn_.removed),
+        short_(short_edges_of(drawn_.solid)) {}
 
-  Cleared run() {
-    short_ = order_.short_edges_of(solid_);
+  Generalised run() {
     while (clear_one()) {
     }
-    return {std::move(solid_), std::move(left_)};
+    return std::move(drawn_);
   }
 
  private:
   /// Drops one facet. False if none can go: then all edges are left, each with its reason.
   bool clear_one() {
-    left_.clear();
+    drawn_.uncleared.clear();
     list_edges();
     for (const ShortEdge& edge : short_) {
       std::string reason;
       if (clear(edge, reason)) return true;
-      left_.push_back({edge.from, edge.to, std::move(reason)});
+      drawn_.uncleared.push_back({edge.from, edge.to, std::move(reason)});
     }
     return false;
   }
 
   bool clear(const ShortEdge& edge, std::string& reason) {
-    if (!validator_) {
+    if (context_.judge == nullptr) {
       reason = "whether the building would still be valid was not checked";
       return false;
     }
@@ -74,11 +78,11 @@ class EdgeClearer {
     double most_m = 0;
     for (const ShortEdge& edge : short_) most_m = std::max(most_m, edge.length_m);
     edges_.clear();
-    for (const FacetId f : ids_below<FacetId>(solid_.facets.size()))
-      for (const Loop& loop : solid_.facets[f.index()].loops)
+    for (const FacetId f : ids_below<FacetId>(solid().facets.size()))
+      for (const Loop& loop : solid().facets[f.index()].loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {
-          const Vec3 p = solid_.vertices[at(loop[i])].point;
-          const Vec3 q = solid_.vertices[at(loop[(i + 1) % loop.size()])].point;
+          const Vec3 p = solid().vertices[at(loop[i])].point;
+          const Vec3 q = solid().vertices[at(loop[(i + 1) % loop.size()])].point;
           if (length(q - p) <= most_m) edges_.push_back(facet_edge(p, q, f));
         }
     std::ranges::stable_sort(edges_, is_before);
@@ -90,46 +94,53 @@ class EdgeClearer {
     for (const FacetEdge& its :
          std::ranges::equal_range(edges_, facet_edge(edge.from, edge.to, {}), is_before))
       out.push_back(its.facet);
-    const auto corners = [&](FacetId id) { return solid_.facets[id.index()].loops[0].size(); };
+    const auto corners = [&](FacetId id) { return solid().facets[id.index()].loops[0].size(); };
     std::ranges::stable_sort(out, {}, corners);
     return out;
   }
 
   /// Why the facet cannot go, or nothing: then it is gone.
   std::string drop(FacetId facet) {
-    if (auto reason = order_.keeps_facet(solid_, solid_.facets[facet.index()]))
+    if (auto reason = staying_.why_it_stays(solid(), solid().facets[facet.index()]))
       return std::move(*reason);
-    if (!may_go_on(validator_.work, solid_, kStepsPerDrop)) return kNoWorkLeft;
-    DroppedFacet dropped = drop_facet(solid_, facet, order_.reach_m);
+    if (!context_.may_go_on(solid(), kStepsPerDrop)) return kNoWorkLeft;
+    DroppedFacet dropped = drop_facet(solid(), facet, context_.invariants.least_edge_m);
     if (!dropped.solid) return std::move(dropped.reason);
-    auto left = order_.short_edges_of(*dropped.solid);
+    auto left = short_edges_of(*dropped.solid);
     if (left.size() >= short_.size()) return "edges as short would be left";
-    if (validator_.violation_of)
-      if (const auto violation = validator_.violation_of(*dropped.solid))
-        return violation->sentence;
+    if (const auto broken = context_.violation_by(*dropped.solid)) return broken->sentence;
     // The solid as it is now is judged only where that decides.
-    if (!fitness_) fitness_ = validator_.fitness_of(solid_);
-    const Fitness fitness = validator_.fitness_of(*dropped.solid);
+    if (!fitness_) fitness_ = context_.judge->fitness_of(solid());
+    const Fitness fitness = context_.judge->fitness_of(*dropped.solid);
     if (fitness < *fitness_) return "the building would not be valid";
     fitness_ = fitness;
-    solid_ = std::move(*dropped.solid);
+    drawn_.solid = std::move(*dropped.solid);
     short_ = std::move(left);
     return {};
   }
 
-  Solid solid_;
-  const ClearOrder& order_;
-  const SolidValidator& validator_;
-  std::optional<Fitness> fitness_;  ///< of solid_
+  [[nodiscard]] const Solid& solid() const { return drawn_.solid; }
+
+  /// The edges of a solid that are to go.
+  [[nodiscard]] std::vector<ShortEdge> short_edges_of(const Solid& of) const {
+    const double least_m = context_.invariants.least_edge_m;
+    return without_whole_edges(
+        new_short_edges(context_.solid, of, context_.segmentation, drawn_.removed, least_m),
+        context_.segmentation, drawn_.changed, drawn_.removed, least_m);
+  }
+
+  const RedrawContext& context_;
+  Generalised drawn_;
+  detail::StayingFeatures staying_;
+  std::optional<Fitness> fitness_;  ///< of the solid
   std::vector<ShortEdge> short_;
-  std::vector<FacetEdge> edges_;  ///< of solid_, as long as those, sorted
-  std::vector<UnclearedEdge> left_;
+  std::vector<FacetEdge> edges_;  ///< of the solid, as long as those, sorted
 };
 
 }  // namespace
 
-Cleared clear_edges(Solid solid, const ClearOrder& order, const SolidValidator& validator) {
-  return EdgeClearer(std::move(solid), order, validator).run();
+Generalised clear_edges(const RedrawContext& context, Generalised drawn) {
+  return EdgeClearer(context, std::move(drawn)).run();
 }
 
 }  // namespace oriel

@@ -25,9 +25,9 @@ constexpr std::int64_t kStepsPerRing = 32;
 
 class RingFiller {
  public:
-  RingFiller(const Segmentation& segmentation, const SegmentOptions& options, Solid solid)
-      : segmentation_(segmentation),
-        options_(options),
+  RingFiller(const RedrawContext& context, Solid solid)
+      : segmentation_(context.segmentation),
+        weld_m_(context.options.tolerances.weld_m),
         solid_(std::move(solid)),
         goes_(solid_.facets.size(), 0) {
     for (const FacetId f : goes_.ids())
@@ -53,7 +53,7 @@ class RingFiller {
  private:
   [[nodiscard]] bool lies_in(const Plane& its, const Plane& plane) const {
     return its.coefficients == plane.coefficients &&
-           std::abs(its.offset_m - plane.offset_m) <= options_.tolerances.weld_m;
+           std::abs(its.offset_m - plane.offset_m) <= weld_m_;
   }
 
   [[nodiscard]] bool is_within(const Loop& loop, const std::vector<Outline>& ring,
@@ -124,7 +124,7 @@ class RingFiller {
   }
 
   const Segmentation& segmentation_;
-  const SegmentOptions& options_;
+  double weld_m_;
   Solid solid_;
   std::map<std::pair<int, int>, FacetId> facet_at_;  ///< by directed edge
   IndexedVector<FacetId, char> goes_;
@@ -132,22 +132,20 @@ class RingFiller {
 
 }  // namespace
 
-Remainder fill_rings(const Segmentation& segmentation, Remainder remainder,
-                     const SolidValidator& validator, const SegmentOptions& options) {
+Remainder fill_rings(const RedrawContext& context, Remainder remainder) {
   std::vector<FeatureId> rings;
   for (const Refusal& refusal : remainder.refused)
-    if (segmentation.features[refusal.feature.index()].is_uncut) rings.push_back(refusal.feature);
+    if (context.feature(refusal.feature).is_uncut) rings.push_back(refusal.feature);
   for (const FeatureId id : rings) {
     if (std::ranges::binary_search(remainder.removed, id)) continue;  // it went with another one
-    if (!may_go_on(validator.work, remainder.solid, kStepsPerRing)) break;
-    auto made = RingFiller(segmentation, options, remainder.solid)
-                    .without(segmentation.features[id.index()]);
+    if (!context.may_go_on(remainder.solid, kStepsPerRing)) break;
+    auto made = RingFiller(context, remainder.solid).without(context.feature(id));
     if (!made || !is_closed(*made) || volume_m3(*made) <= 0) continue;
     std::vector<FeatureId> gone = remainder.removed;
     gone.push_back(id);
-    gone = with_what_sits_on(segmentation, gone);
-    if (detail::loses_what_stays(remainder.solid, *made, segmentation, gone)) continue;
-    if (validator && validator.fitness_of(*made) == Fitness::unfit) continue;
+    gone = with_what_sits_on(context.segmentation, gone);
+    if (detail::loses_what_stays(remainder.solid, *made, context.segmentation, gone)) continue;
+    if (context.judge != nullptr && context.judge->fitness_of(*made) == Fitness::unfit) continue;
     remainder.solid = std::move(*made);
     remainder.removed = std::move(gone);
   }

@@ -1,12 +1,10 @@
 #include "generalise/invariants/stays.h"
-#include "generalise/removal/cell_contacts.h"
-#include "generalise/removal/polygon_names.h"
+#include "generalise/removal/building_cells.h"
 #include "generalise/removal/removal.h"
 #include "generalise/removal/take_out.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/segment/complex/body_without.h"
-#include "kernel/segment/complex/cell_complex.h"
 #include "kernel/solidify/solidify.h"
 #include "model/building.h"
 #include "model/cell_complex.h"
@@ -43,33 +41,19 @@ constexpr std::int64_t kStepsPerAttempt = 32;
 /// What it takes to see that cells would not hang together.
 constexpr std::int64_t kStepsPerLook = 1;
 
-using detail::CellContacts;
 using detail::FaceNames;
-using detail::PolygonsAround;
 using Ids = std::vector<FeatureId>;
-
-int lumps_of(const Solid& solid) {
-  int lumps = 0;
-  for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
-  return lumps;
-}
 
 class CellRemover {
  public:
-  CellRemover(const Solid& solid, const Segmentation& segmentation, const Remainder& remainder,
-              const SolidValidator& validator, double unseen_m, const SegmentOptions& options)
-      : solid_(solid),
-        segmentation_(segmentation),
-        validator_(validator),
-        work_(validator.work != nullptr ? *validator.work : uncounted_),
+  CellRemover(const RedrawContext& context, const Remainder& remainder, double unseen_m)
+      : context_(context),
+        segmentation_(context.segmentation),
+        cells_(context.shared_cells()),
+        work_(context.work != nullptr ? *context.work : uncounted_),
         unseen_m_(unseen_m),
-        options_(options),
-        complex_(validator.complex ? validator.complex
-                                   : std::make_shared<std::optional<CellComplex>>()),
-        footprint_m2_(measures_of(remainder.solid).footprint_m2),
-        vertices_(vertices_of(segmentation, options.tolerances)),
-        polygons_around_(solid, options.tolerances.weld_m),
-        named_(detail::polygons_named(solid)) {
+        before_(context.before ? *context.before : measures_of(context.solid)),
+        footprint_m2_(measures_of(remainder.solid).footprint_m2) {
     for (const FeatureId id : remainder.removed)
       if (!is_carried(id, remainder.removed)) gone_.push_back(id);
   }
@@ -77,7 +61,7 @@ class CellRemover {
   /// What is left of the solid if as many of these go as can. `left`: what is left without those
   /// that are gone already; if that is unfit, as many of them go as can, too.
   std::optional<Solid> run(Ids more, const Solid& left, Fitness fitness) {
-    base_ = fitness == Fitness::unfit ? solid_ : left;
+    base_ = fitness == Fitness::unfit ? context_.solid : left;
     if (fitness == Fitness::unfit) more.insert(more.end(), gone_.begin(), gone_.end());
     if (fitness == Fitness::unfit) gone_.clear();
     base_gone_ = gone_;
@@ -101,9 +85,7 @@ class CellRemover {
   [[nodiscard]] const Ids& gone() const { return gone_; }
 
  private:
-  [[nodiscard]] const Feature& feature(FeatureId id) const {
-    return segmentation_.features[id.index()];
-  }
+  [[nodiscard]] const Feature& feature(FeatureId id) const { return context_.feature(id); }
   [[nodiscard]] bool is_carried(FeatureId id, const Ids& by) const {
     const auto is_in = [&](FeatureId carrier) {
       return carrier.is_valid() && std::ranges::find(by, carrier) != by.end();
@@ -119,7 +101,7 @@ class CellRemover {
       Ids rest = more;
       std::erase_if(rest, [&](FeatureId id) { return std::ranges::binary_search(gone_, id); });
       const auto others = std::ranges::stable_partition(
-          rest, [&](FeatureId id) { return std::ranges::binary_search(validator_.settled, id); });
+          rest, [&](FeatureId id) { return std::ranges::binary_search(context_.settled, id); });
       add({rest.begin(), others.begin()}, way);
       add({others.begin(), others.end()}, way);
     }
@@ -135,17 +117,17 @@ class CellRemover {
 
   /// Keeps what comes of it if it is a closed solid.
   bool attempt(const Ids& more, Way way) {
-    if (!may_go_on(validator_.work, base_, kStepsPerLook)) return false;
+    if (!context_.may_go_on(base_, kStepsPerLook)) return false;
     Ids all = gone_;
     all.insert(all.end(), more.begin(), more.end());
     std::ranges::sort(all);
     std::optional<Refusal> fault;
     std::optional<Solid> made;
-    if (falls_apart(all))
-      fault = apart();
+    if (falls_apart_by_cells(all))
+      fault = refusal(fallen_apart());
     else if (more.size() > 1 && is_hopeless(all))
       return false;
-    else if (may_go_on(validator_.work, base_, kStepsPerAttempt))
+    else if (context_.may_go_on(base_, kStepsPerAttempt))
       made = way == Way::in_planes ? taken_out(all, fault) : without(all, fault);
     if (fault && fault->code == Code::G411) has_fallen_apart_ = true;
     if (!made) {
@@ -161,23 +143,16 @@ class CellRemover {
     return true;
   }
 
-  static Refusal apart() { return {{}, "the building would fall apart", Code::G411}; }
+  static Refusal refusal(const Violation& broken) { return {{}, broken.sentence, broken.code}; }
 
   /// The cells tell so, which are asked once something has fallen apart: mostly it is not alone.
-  [[nodiscard]] bool falls_apart(const Ids& all) {
-    if (!has_fallen_apart_) return false;
-    if (!contacts_) {
-      if (!complex()) return false;
-      contacts_.emplace(*complex(), segmentation_.cells.size());
-      pieces_ = contacts_->pieces_of(cells_without(fates_of({})));
-    }
-    return contacts_->pieces_of(cells_without(fates_of(all))) > pieces_;
-  }
-
-  /// Nothing if the work does not last.
-  std::optional<CellComplex>& complex() {
-    if (!*complex_) *complex_ = cell_complex(segmentation_, options_.tolerances, work_);
-    return *complex_;
+  [[nodiscard]] bool falls_apart_by_cells(const Ids& all) {
+    if (!has_fallen_apart_ || cells_->complex(work_) == nullptr) return false;
+    const auto pieces_without = [&](const Ids& ids) {
+      return cells_->contacts().pieces_of(cells_without(fates_of(ids)));
+    };
+    if (!pieces_) pieces_ = pieces_without({});
+    return pieces_without(all) > *pieces_;
   }
 
   /// What becomes of each feature's cells: material, air, or (nothing) what they were.
@@ -265,15 +240,15 @@ class CellRemover {
     const auto before = fates_of(base_gone_), after = fates_of(all);
     std::vector<CellId> leaves = cells_with(after);
     std::erase_if(leaves, [&](CellId cell) { return fate_of(cell, before).has_value(); });
-    auto made = detail::take_out(base_, segmentation_, vertices_, leaves,
-                                 options_.tolerances.weld_m, work_);
+    auto made = detail::take_out(base_, segmentation_, cells_->vertices(), leaves,
+                                 tolerances().weld_m, work_);
     if (!made) return std::nullopt;
     const Ids gone = with_what_sits_on(segmentation_, all);
-    fault = fault_of(*made, gone, options_.tolerances, [&] {
+    fault = fault_of(*made, gone, tolerances(), [&] {
       const std::set<int> lost = polygons_of(gone);
       for (Facet& facet : made->facets) {
-        const auto polygons = polygons_around_.of(outlines_of(made->vertices, facet.loops),
-                                                  made->planes[facet.plane.index()]);
+        const auto polygons = cells_->polygons_around().of(outlines_of(made->vertices, facet.loops),
+                                                           made->planes[facet.plane.index()]);
         std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
       }
     });
@@ -285,16 +260,18 @@ class CellRemover {
   std::optional<Solid> without(const Ids& all, std::optional<Refusal>& fault) {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const auto fates = fates_of(all);
-    if (!complex()) return std::nullopt;
-    const Draft draft = draft_of(*complex(), cells_without(fates));
-    auto made = solid_of(draft, gone, names_of_faces(), fault);
+    const CellComplex* complex = cells_->complex(work_);
+    if (complex == nullptr) return std::nullopt;
+    const Draft draft = draft_of(*complex, cells_without(fates));
+    auto made = solid_of(draft, gone, cells_->names(), fault);
     // Cells that others cut through meet where all planes of the building do; what goes meets the
     // building in a few of them.
     if (made) return made;
-    if (is_complex_closed() && lacks_what_stays(draft.numbers, names_of_faces(), gone)) return made;
-    const auto body = body_without(solid_, segmentation_, vertices_, cells_with(fates), work_);
+    if (cells_->is_closed() && lacks_what_stays(draft.numbers, cells_->names(), gone)) return made;
+    const auto body =
+        body_without(context_.solid, segmentation_, cells_->vertices(), cells_with(fates), work_);
     if (!body) return std::nullopt;
-    FaceNames names(*body, polygons_around_, segmentation_);
+    FaceNames names(*body, cells_->polygons_around(), segmentation_);
     return solid_of(draft_of(*body, {CellId{0}}), gone, names, fault);
   }
 
@@ -303,11 +280,11 @@ class CellRemover {
                                 std::optional<Refusal>& fault) {
     Work uncounted(kWorkBudget);
     for (const double coarser : kCoarser) {
-      if (is_used_up(validator_.work)) break;
-      Tolerances tolerances = options_.tolerances;
+      if (context_.has_no_work_left()) break;
+      Tolerances tolerances = context_.options.tolerances;
       tolerances.weld_m *= coarser;
       auto made = solidify(draft.shell, tolerances, {Closing::planar, kSlit_m2},
-                           validator_.work != nullptr ? *validator_.work : uncounted);
+                           context_.work != nullptr ? *context_.work : uncounted);
       if (!made.value || !is_closed(*made.value) ||
           std::abs(volume_m3(*made.value) - draft.volume_m3) > tolerances.weld_m * draft.area_m2)
         continue;
@@ -327,42 +304,38 @@ class CellRemover {
   [[nodiscard]] std::optional<Refusal> fault_of(const Solid& made, const Ids& gone,
                                                 const Tolerances& tolerances,
                                                 const Name& name_polygons) {
-    if (lumps_of(made) > lumps_of(solid_)) return apart();
+    const Measures after = measures_of(made, context_.invariants);
+    if (const auto broken = falls_apart(before_, after)) return refusal(*broken);
     // The planes are found anew, and a vertex may lie so far off its own.
     const double slack_m = tolerances.weld_m + tolerances.plane_offset_m + unseen_m_;
-    if (reaches_out(box_of(solid_), box_of(made), slack_m))
-      return Refusal{{}, "the building would reach further than it did", Code::G412};
-    if (auto broken = violation_of(made)) return broken;
-    const double footprint_m2 = measures_of(made).footprint_m2;
-    double most_m3 = tolerances.weld_m * surface_m2(solid_);
+    if (const auto broken = reaches_out(before_, after, slack_m)) return refusal(*broken);
+    if (context_.before)
+      if (const auto broken = violation(before_, after, context_.invariants))
+        return refusal(*broken);
+    double most_m3 = tolerances.weld_m * surface_m2(context_.solid);
     for (const FeatureId id : gone) most_m3 += feature(id).volume_m3;
     const Refusal invalid{{}, "removing it would leave no valid solid"};
-    if (std::abs(footprint_m2 - footprint_m2_) >
+    if (std::abs(after.footprint_m2 - footprint_m2_) >
             kFootprint * footprint_m2_ + ground_below_m2(gone) ||
-        std::abs(volume_m3(made) - volume_m3(solid_)) > most_m3)
+        std::abs(after.volume_m3 - before_.volume_m3) > most_m3)
       return invalid;
     name_polygons();
-    if (detail::loses_what_stays(named_, detail::polygons_named(made), segmentation_, gone) ||
+    if (detail::loses_what_stays(cells_->named(), detail::polygons_named(made), segmentation_,
+                                 gone) ||
         !is_fit(made))
       return invalid;
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<Refusal> violation_of(const Solid& made) const {
-    const auto broken = validator_.violation_of ? validator_.violation_of(made) : std::nullopt;
-    if (!broken) return std::nullopt;
-    return Refusal{{}, broken->sentence, broken->code};
-  }
-
   [[nodiscard]] bool is_fit(const Solid& made) {
-    const Fitness fitness = validator_.fitness_of(made);
+    const Fitness fitness = context_.judge->fitness_of(made);
     has_excused_ |= fitness == Fitness::as_it_came;
     return fitness >= least_;
   }
 
   /// How much of the ground these features cover at most.
   [[nodiscard]] double ground_below_m2(const Ids& gone) const {
-    const double ground_m = box_of(solid_).min.z + kGroundReach_m;
+    const double ground_m = before_.box.min.z + kGroundReach_m;
     double area_m2 = 0;
     for (const FeatureId id : gone) {
       const Vec3 size = feature(id).box.max - feature(id).box.min;
@@ -404,47 +377,31 @@ class CellRemover {
     for (const FaceId face : faces)
       for (const int polygon : names.of(face))
         if (!lost.contains(polygon)) named.insert(polygon);
-    return detail::loses_what_stays(named_, named, segmentation_, gone);
-  }
-
-  /// Needs complex(). It tells all of the building then.
-  bool is_complex_closed() {
-    if (!is_complex_closed_) is_complex_closed_ = (*complex_)->open_edge_count() == 0;
-    return *is_complex_closed_;
-  }
-
-  /// Needs complex().
-  FaceNames& names_of_faces() {
-    if (!names_of_faces_) names_of_faces_.emplace(**complex_, polygons_around_, segmentation_);
-    return *names_of_faces_;
+    return detail::loses_what_stays(cells_->named(), named, segmentation_, gone);
   }
 
   /// The cells tell so, where they are known.
   [[nodiscard]] bool is_hopeless(const Ids& all) {
-    if (!*complex_) return false;
+    const CellComplex* complex = cells_->known_complex();
+    if (complex == nullptr || !cells_->is_closed()) return false;
     std::vector<FaceId> faces;
-    for (const BoundaryFace& part : (*complex_)->boundary(cells_without(fates_of(all))))
+    for (const BoundaryFace& part : complex->boundary(cells_without(fates_of(all))))
       faces.push_back(part.face);
-    return lacks_what_stays(faces, names_of_faces(), with_what_sits_on(segmentation_, all));
+    return lacks_what_stays(faces, cells_->names(), with_what_sits_on(segmentation_, all));
   }
 
-  const Solid& solid_;
+  [[nodiscard]] const Tolerances& tolerances() const { return context_.options.tolerances; }
+
+  const RedrawContext& context_;
   const Segmentation& segmentation_;
-  const SolidValidator& validator_;
+  std::shared_ptr<detail::BuildingCells> cells_;
   Work uncounted_;
   Work& work_;
   double unseen_m_;
-  const SegmentOptions& options_;
-  std::shared_ptr<std::optional<CellComplex>> complex_;  ///< once asked for
-  std::optional<CellContacts> contacts_;                 ///< likewise
-  std::optional<bool> is_complex_closed_{};              ///< likewise
-  int pieces_ = 0;                                       ///< of the building, by its cells
-  bool has_fallen_apart_ = false;
+  Measures before_;
   double footprint_m2_;
-  VertexPool vertices_;  ///< of the segmentation
-  PolygonsAround polygons_around_;
-  std::set<int> named_;                        ///< input polygons, by the solid
-  std::optional<FaceNames> names_of_faces_{};  ///< of the complex
+  std::optional<int> pieces_{};  ///< of the building, by its cells
+  bool has_fallen_apart_ = false;
   std::map<FeatureId, Refusal> faults_;
   Ids gone_;  ///< in order; without what goes along
   Ids base_gone_;
@@ -456,20 +413,18 @@ class CellRemover {
 
 }  // namespace
 
-Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Remainder remainder,
-                       const SolidValidator& validator, double unseen_m,
-                       const SegmentOptions& options) {
+Remainder remove_cells(const RedrawContext& context, Remainder remainder, double unseen_m) {
   Ids refused;
   for (const Refusal& refusal : remainder.refused) {
-    const Feature& feature = segmentation.features[refusal.feature.index()];
+    const Feature& feature = context.feature(refusal.feature);
     if (feature.node.is_valid() && feature.sense != Sense::imprint)
       refused.push_back(refusal.feature);
   }
-  if (refused.empty() && !validator.is_thorough) return remainder;
+  if (refused.empty() && !context.judges_all) return remainder;
   const Fitness fitness =
-      remainder.solid.facets.empty() ? Fitness::valid : validator.fitness_of(remainder.solid);
+      remainder.solid.facets.empty() ? Fitness::valid : context.judge->fitness_of(remainder.solid);
   if (refused.empty() && fitness != Fitness::unfit) return remainder;
-  CellRemover remover(solid, segmentation, remainder, validator, unseen_m, options);
+  CellRemover remover(context, remainder, unseen_m);
   auto made = remover.run(std::move(refused), remainder.solid, fitness);
   for (Refusal& refusal : remainder.refused)
     if (const Refusal* fault = remover.fault_of(refusal.feature);
@@ -478,7 +433,7 @@ Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Rem
   if (!made) return remainder;
   remainder.solid = std::move(*made);
   const Ids asked = std::move(remainder.removed);
-  remainder.removed = with_what_sits_on(segmentation, remover.gone());
+  remainder.removed = with_what_sits_on(context.segmentation, remover.gone());
   for (const FeatureId id : asked)
     if (!std::ranges::binary_search(remainder.removed, id))
       remainder.refused.push_back({id, "removing it would leave no valid solid"});

@@ -173,9 +173,18 @@ Change inverse_of(const Change& change, const LevelState& state) {
 /// The operations that lead from one level to the next.
 class LevelOperations {
  public:
-  LevelOperations(const SeriesInput& input, const SeriesLevel& before, const SeriesLevel& after,
-                  const FiringScales& firing, const Placer& place)
-      : input_(input), before_(before), after_(after), firing_(firing), place_(place) {}
+  LevelOperations(const RedrawContext& context, const SeriesOrder& order, const SeriesLevel& before,
+                  const SeriesLevel& after, const FiringScales& firing, const Placer& place)
+      : context_(context),
+        order_(order),
+        before_(before),
+        after_(after),
+        firing_(firing),
+        place_(place) {
+    context_.invariants = {};  // none has to hold between levels
+    context_.judge = nullptr;
+    context_.settled.clear();
+  }
 
   /// `state` is the one before and becomes the one after them.
   std::vector<SeriesOperation> run(LevelState& state) {
@@ -196,10 +205,6 @@ class LevelOperations {
   }
 
  private:
-  [[nodiscard]] const Feature& feature(FeatureId id) const {
-    return input_.segmentation.features[id.index()];
-  }
-
   [[nodiscard]] bool is_new(const Step& step) const {
     const auto old = std::ranges::find(before_.steps, step.feature, &Step::feature);
     return old == before_.steps.end() || !draws_the_same(*old, step);
@@ -218,8 +223,8 @@ class LevelOperations {
       open.pop_back();
       if (!next.is_valid() || !seen.insert(next).second) continue;
       if (const auto found = step_of_.find(next); found != step_of_.end()) return found->second;
-      open.push_back(feature(next).parent);
-      open.push_back(feature(next).host);
+      open.push_back(context_.feature(next).parent);
+      open.push_back(context_.feature(next).host);
     }
     return -1;
   }
@@ -231,7 +236,7 @@ class LevelOperations {
 
   void collect_steps() {
     const Plan plan{after_.scale, after_.steps, {}};
-    for (const detail::PlanTask& task : detail::tasks_of(plan, input_.segmentation)) {
+    for (const detail::PlanTask& task : detail::tasks_of(plan, context_.segmentation)) {
       if (std::ranges::none_of(task.steps, [&](const Step& step) { return is_new(step); }))
         continue;
       SeriesStep made{task.steps[0], after_.scale, true, task.steps};
@@ -315,7 +320,7 @@ class LevelOperations {
   void separate(const std::vector<SeriesStep>& steps, LevelState state, const Change& change,
                 std::vector<Step>& done) {
     for (SeriesGroup& group :
-         groups_of(steps, change, input_.segmentation, input_.building.frame.origin_m)) {
+         groups_of(steps, change, context_.segmentation, context_.building.frame.origin_m)) {
       std::vector<SeriesStep> some;
       for (const std::size_t i : group.steps) some.push_back(steps[i]);
       if (some.size() == 1) {
@@ -350,7 +355,7 @@ class LevelOperations {
                std::vector<Step>& done) {
     const Change whole = difference(state, next);
     std::ranges::stable_partition(some, [&](const SeriesStep& one) {
-      return is_on_rim(one, whole, input_.segmentation, input_.building.frame.origin_m);
+      return is_on_rim(one, whole, context_.segmentation, context_.building.frame.origin_m);
     });
     while (some.size() > 1) {
       SeriesStep first = std::move(some.front());
@@ -382,20 +387,19 @@ class LevelOperations {
   }
 
   /// What the steps make, if `one` is carried out among them and leaves a closed solid that may be
-  /// written. No invariant has to hold between levels.
+  /// written.
   [[nodiscard]] std::optional<LevelState> state_of(const std::vector<Step>& steps,
                                                    const SeriesStep& one) const {
     std::vector<Issue> issues;
-    if (!may_go_on(input_.work, input_.solid, kStepsPerState)) return std::nullopt;
-    Invariants none;
-    none.work = input_.work;
-    const auto level = level_of(input_, after_.scale, steps, none, issues);
+    if (!context_.may_go_on(context_.solid, kStepsPerState)) return std::nullopt;
+    const auto level = level_of(context_, order_, Plan{after_.scale, steps, {}}, issues);
     if (!level || level->steps.size() != steps.size()) return std::nullopt;
     const auto& removed = level->generalised.removed;
     if (!std::ranges::includes(removed, one.gone)) return std::nullopt;
-    if (input_.fault_of && input_.fault_of(*level->redrawn.labelled.geometry)) return std::nullopt;
+    if (order_.fault_of(*level->redrawn.labelled.geometry)) return std::nullopt;
     LevelState state = level_state(level->redrawn.labelled, place_);
-    if (!is_closed(*labelled_building(state, input_.building.frame).geometry)) return std::nullopt;
+    if (!is_closed(*labelled_building(state, context_.building.frame).geometry))
+      return std::nullopt;
     return state;
   }
 
@@ -406,7 +410,7 @@ class LevelOperations {
       std::size_t owner = steps_.size() - 1;
       for (std::size_t i = 0; i < steps_.size(); ++i) {
         const bool takes_it = std::ranges::any_of(
-            steps_[i].gone, [&](FeatureId gone) { return input_.table.id(gone) == id; });
+            steps_[i].gone, [&](FeatureId gone) { return context_.table.id(gone) == id; });
         const bool takes_facets =
             std::ranges::any_of(steps_[i].change.removed, [&](const auto& facet) {
               return std::ranges::binary_search(facet.second.installations, id);
@@ -421,7 +425,7 @@ class LevelOperations {
   [[nodiscard]] std::map<std::string, MemberValue> counts_of(
       const std::set<FeatureId>& removed) const {
     Redrawn counted;
-    count_removed({removed.begin(), removed.end()}, input_.segmentation, input_.interpretation,
+    count_removed({removed.begin(), removed.end()}, context_.segmentation, context_.interpretation,
                   counted);
     std::map<std::string, MemberValue> out;
     for (const auto& [name, value] : counted.labelled.attributes) out[name] = as_written(value);
@@ -447,16 +451,16 @@ class LevelOperations {
       scale = std::max(scale, one.scale);
       SeriesOperation operation;
       operation.building = state.building;
-      operation.oriel_id = input_.table.id(one.step.feature);
-      operation.label = input_.interpretation.verdicts[one.step.feature.index()].label;
+      operation.oriel_id = context_.table.id(one.step.feature);
+      operation.label = context_.interpretation.verdicts[one.step.feature.index()].label;
       operation.operation = one.step.operation;
       operation.rule = one.step.rule;
       operation.scale = scale;
       operation.aabb_m = box_of(one.change);
-      for (const FeatureId id : one.with) operation.with.push_back(input_.table.id(id));
+      for (const FeatureId id : one.with) operation.with.push_back(context_.table.id(id));
       for (const AlongFeature& along : after_.generalised.along)
         if (!along.reason.empty() && one.gone.contains(along.feature))
-          operation.could_not_follow.emplace(input_.table.id(along.feature), along.reason);
+          operation.could_not_follow.emplace(context_.table.id(along.feature), along.reason);
       operation.inverse = inverse_of(one.change, state);
       operation.forward = std::move(one.change);
       if (!apply(state, operation.forward)) throw GeometryError("an operation does not fit");
@@ -465,7 +469,8 @@ class LevelOperations {
     return out;
   }
 
-  const SeriesInput& input_;
+  RedrawContext context_;
+  const SeriesOrder& order_;
   const SeriesLevel& before_;
   const SeriesLevel& after_;
   const FiringScales& firing_;
@@ -477,24 +482,24 @@ class LevelOperations {
 }  // namespace
 
 FiringScales::FiringScales(const std::vector<double>& scales, const std::vector<double>& bounds,
-                           const PlanAt& plan_at) {
-  plans_.emplace(1, plan_at(1));
+                           const SeriesOrder& order) {
+  plans_.emplace(1, order.plan_at(1));
   for (const auto* some : {&scales, &bounds})
     for (const double scale : *some)
       if (scale > 1 && scale <= scales.back() && !plans_.contains(scale))
-        plans_.emplace(scale, plan_at(scale));
+        plans_.emplace(scale, order.plan_at(scale));
   std::vector<double> known;
   for (const auto& [scale, plan] : plans_) known.push_back(scale);
-  for (std::size_t i = 1; i < known.size(); ++i) halve(known[i - 1], known[i], plan_at);
+  for (std::size_t i = 1; i < known.size(); ++i) halve(known[i - 1], known[i], order);
 }
 
-void FiringScales::halve(double low, double high, const PlanAt& plan_at) {
+void FiringScales::halve(double low, double high, const SeriesOrder& order) {
   if (high <= low * kSameScale || has_same_decisions(plans_.at(low), plans_.at(high))) return;
   const double middle = std::round((low + high) / 2);
   if (middle <= low || middle >= high) return;
-  plans_.emplace(middle, plan_at(middle));
-  halve(low, middle, plan_at);
-  halve(middle, high, plan_at);
+  plans_.emplace(middle, order.plan_at(middle));
+  halve(low, middle, order);
+  halve(middle, high, order);
 }
 
 double FiringScales::of(const Step& step, double from, double to) const {
@@ -510,13 +515,15 @@ double FiringScales::of(const Step& step, double from, double to) const {
   return first;
 }
 
-ScaleSeries scale_series(const SeriesInput& input, const std::vector<SeriesLevel>& levels,
-                         const FiringScales& firing, const Placer& place) {
+ScaleSeries scale_series(const RedrawContext& context, const SeriesOrder& order,
+                         const std::vector<SeriesLevel>& levels, const FiringScales& firing,
+                         const Placer& place) {
   ScaleSeries series;
   series.finest = level_state(levels[0].redrawn.labelled, place);
   LevelState state = series.finest;
   for (std::size_t i = 1; i < levels.size(); ++i) {
-    auto operations = LevelOperations(input, levels[i - 1], levels[i], firing, place).run(state);
+    auto operations =
+        LevelOperations(context, order, levels[i - 1], levels[i], firing, place).run(state);
     std::ranges::move(operations, std::back_inserter(series.operations));
   }
   return series;

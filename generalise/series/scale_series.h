@@ -15,14 +15,14 @@ namespace oriel {
 class FiringScales {
  public:
   FiringScales(const std::vector<double>& scales, const std::vector<double>& bounds,
-               const PlanAt& plan_at);
+               const SeriesOrder& order);
 
   /// The smallest scale above `from` and up to `to` from which on the plans up to `to` have the
   /// step; `to` if none has.
   [[nodiscard]] double of(const Step& step, double from, double to) const;
 
  private:
-  void halve(double low, double high, const PlanAt& plan_at);
+  void halve(double low, double high, const SeriesOrder& order);
 
   std::map<double, Plan> plans_;
 };
@@ -41,8 +41,9 @@ class FiringScales {
 ///   that level's. Throws GeometryError if it is not.
 ///
 /// Source: paper section 5; Thiemann and Sester call it the sequence of elementary operations.
-ScaleSeries scale_series(const SeriesInput& input, const std::vector<SeriesLevel>& levels,
-                         const FiringScales& firing, const Placer& place);
+ScaleSeries scale_series(const RedrawContext& context, const SeriesOrder& order,
+                         const std::vector<SeriesLevel>& levels, const FiringScales& firing,
+                         const Placer& place);
 
 /// The same levels without the elementary operations between them, which take long to find: one
 /// operation without a feature leads from each level to the next. Throws DoubledFacet.

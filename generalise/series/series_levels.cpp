@@ -44,11 +44,14 @@ Step fixed(Step step, double scale) {
 
 class Levels {
  public:
-  Levels(const SeriesInput& input, const PlanAt& plan_at) : input_(input), plan_at_(plan_at) {}
+  Levels(const RedrawContext& context, const SeriesOrder& order)
+      : context_(context), order_(order) {
+    context_.cells = context.shared_cells();
+  }
 
   Checked<std::vector<SeriesLevel>> run(const std::vector<double>& scales) {
     Checked<std::vector<SeriesLevel>> out;
-    auto finest = level_of(input_, 0, {}, {}, out.issues);
+    auto finest = level_of(context_, order_, {}, out.issues);
     if (!finest) return out;
     if (auto fault = fault_of(*finest)) {
       out.issues.push_back(std::move(*fault));
@@ -81,7 +84,7 @@ class Levels {
   /// What the plan asks for on top of what was done before.
   [[nodiscard]] StepOfFeature wanted(const SeriesLevel& before, double scale) const {
     StepOfFeature steps = by_feature(before.steps);
-    const Plan plan = plan_at_(scale);
+    const Plan plan = order_.plan_at(scale);
     const std::set<FeatureId> bound = bound_members(before, plan);
     for (const Step& step : plan.steps) {
       const auto found = steps.find(step.feature);
@@ -104,7 +107,7 @@ class Levels {
     for (const Step& step : plan.steps) asked.emplace(step.feature, &step);
     std::set<FeatureId> bound;
     const Plan old{before.scale, before.steps, {}};
-    for (const detail::PlanTask& task : detail::tasks_of(old, input_.segmentation)) {
+    for (const detail::PlanTask& task : detail::tasks_of(old, context_.segmentation)) {
       if (!detail::is_for_groups(task.steps[0]) || detail::takes_some(task.steps[0])) continue;
       const auto first = asked.find(task.steps[0].feature);
       const bool is_whole = std::ranges::all_of(task.steps, [&](const Step& step) {
@@ -118,18 +121,18 @@ class Levels {
     return bound;
   }
 
-  [[nodiscard]] Invariants invariants_after(const SeriesLevel& before, double scale) const {
-    Invariants invariants = input_.invariants_at ? input_.invariants_at(scale) : Invariants{};
-    invariants.settled = before.generalised.removed;
-    invariants.work = input_.work;
-    return invariants;
+  std::optional<SeriesLevel> level_after(const SeriesLevel& before, double scale,
+                                         const StepOfFeature& steps, std::vector<Issue>& issues) {
+    context_.invariants = order_.invariants_at(scale);
+    context_.settled = before.generalised.removed;
+    return level_of(context_, order_, Plan{scale, listed(steps), {}}, issues);
   }
 
   std::optional<SeriesLevel> next(const SeriesLevel& before, double scale,
                                   std::vector<Issue>& issues) {
     const StepOfFeature old = by_feature(before.steps);
     StepOfFeature steps = wanted(before, scale);
-    if (input_.has_no_work_left() || asks_nothing_new(before, steps)) {
+    if (context_.has_no_work_left() || asks_nothing_new(before, steps)) {
       SeriesLevel same = before;
       same.scale = scale;
       return same;
@@ -137,8 +140,8 @@ class Levels {
     while (true) {
       for (auto& [feature, step] : steps) keep_gone(before.generalised.removed, step);
       std::vector<Issue> found;
-      auto level = level_of(input_, scale, listed(steps), invariants_after(before, scale), found);
-      if (level && input_.has_no_work_left()) return cut_short(before, std::move(*level));
+      auto level = level_after(before, scale, steps, found);
+      if (level && context_.has_no_work_left()) return cut_short(before, std::move(*level));
       if (!level || !restore_refused(*level, old, steps)) {
         if (level && is_setback(before, *level)) return on_top(before, steps, scale, issues);
         if (auto fault = level ? fault_of(*level) : std::nullopt)
@@ -166,8 +169,7 @@ class Levels {
   }
 
   [[nodiscard]] std::optional<Issue> fault_of(const SeriesLevel& level) const {
-    if (!input_.fault_of) return std::nullopt;
-    return input_.fault_of(*level.redrawn.labelled.geometry);
+    return order_.fault_of(*level.redrawn.labelled.geometry);
   }
 
   /// What was carried out when the work was used up, if it is more than before.
@@ -201,7 +203,7 @@ class Levels {
   static bool restore_refused(const SeriesLevel& level, const StepOfFeature& old,
                               StepOfFeature& steps) {
     bool is_changed = false;
-    for (const CarriedOut::Refused& refused : level.generalised.refused) {
+    for (const RefusedStep& refused : level.generalised.refused) {
       const auto before = old.find(refused.feature);
       const auto now = steps.find(refused.feature);
       if (before == old.end() || now == steps.end() || is_same(before->second, now->second))
@@ -234,13 +236,12 @@ class Levels {
 
   void add_tasks(const SeriesLevel& before, std::span<const std::vector<Step>> tasks,
                  SeriesLevel& best, std::vector<Issue>& issues) {
-    if (tasks.empty() || input_.has_no_work_left()) return;
+    if (tasks.empty() || context_.has_no_work_left()) return;
     StepOfFeature more = by_feature(best.steps);
     for (const std::vector<Step>& task : tasks)
       for (const Step& step : task) more.insert_or_assign(step.feature, step);
     std::vector<Issue> found;
-    auto level =
-        level_of(input_, best.scale, listed(more), invariants_after(before, best.scale), found);
+    auto level = level_after(before, best.scale, more, found);
     if (level && !is_setback(before, *level) && !fault_of(*level)) {
       best = std::move(*level);
       std::ranges::move(found, std::back_inserter(issues));
@@ -249,9 +250,9 @@ class Levels {
       add_tasks(before, tasks.subspan(tasks.size() / 2), best, issues);
     } else {
       Issue issue = building_issue(
-          Severity::warning, Code::G408, input_.table.building(),
+          Severity::warning, Code::G408, context_.table.building(),
           "stays unchanged: a change that was made at a larger scale would be undone");
-      issue.place.feature = input_.table.id(tasks[0][0].feature);
+      issue.place.feature = context_.table.id(tasks[0][0].feature);
       issues.push_back(std::move(issue));
     }
   }
@@ -266,45 +267,41 @@ class Levels {
     for (const auto& [feature, step] : wanted_steps)
       if (step.operation == "omit" && is_new(step)) out.push_back({step});
     const Plan plan{0, listed(wanted_steps), {}};
-    for (const detail::PlanTask& task : detail::tasks_of(plan, input_.segmentation))
+    for (const detail::PlanTask& task : detail::tasks_of(plan, context_.segmentation))
       if (std::ranges::any_of(task.steps, is_new)) out.push_back(task.steps);
     return out;
   }
 
-  const SeriesInput& input_;
-  const PlanAt& plan_at_;
+  RedrawContext context_;  ///< of the level that is drawn
+  const SeriesOrder& order_;
 };
 
 }  // namespace
 
-std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std::vector<Step> steps,
-                                    const Invariants& invariants, std::vector<Issue>& issues) {
-  const Plan plan{scale, std::move(steps), {}};
-  auto made = generalise(input.solid, input.segmentation, input.table, input.interpretation, plan,
-                         input.options, invariants);
+std::optional<SeriesLevel> level_of(const RedrawContext& context, const SeriesOrder& order,
+                                    const Plan& plan, std::vector<Issue>& issues) {
+  auto made = generalise(context, plan);
   std::ranges::move(made.issues, std::back_inserter(issues));
   if (!made.value) return std::nullopt;
   SeriesLevel level;
-  level.scale = scale;
+  level.scale = plan.scale;
   const auto& refused = made.value->refused;
-  for (const Step& step : plan.steps)
-    if (std::ranges::find(refused, step.feature, &CarriedOut::Refused::feature) == refused.end())
-      level.steps.push_back(step);
-    else
-      level.refused.push_back(step);
+  for (const Step& step : plan.steps) {
+    const bool is_refused =
+        std::ranges::find(refused, step.feature, &RefusedStep::feature) != refused.end();
+    (is_refused ? level.refused : level.steps).push_back(step);
+  }
   level.generalised = *made.value;
   made.value->is_drawn_anew = true;
-  made.value->undrawn = input.undrawn;
-  level.redrawn = redraw(input.building, input.labelled, input.segmentation, input.table,
-                         input.interpretation, std::move(*made.value), input.options.tolerances);
-  if (input.finish) input.finish(level.redrawn.labelled);
+  level.redrawn = redraw(context, std::move(*made.value));
+  order.finish(level.redrawn.labelled);
   return level;
 }
 
-Checked<std::vector<SeriesLevel>> series_levels(const SeriesInput& input,
-                                                const std::vector<double>& scales,
-                                                const PlanAt& plan_at) {
-  return Levels(input, plan_at).run(scales);
+Checked<std::vector<SeriesLevel>> series_levels(const RedrawContext& context,
+                                                const SeriesOrder& order,
+                                                const std::vector<double>& scales) {
+  return Levels(context, order).run(scales);
 }
 
 }  // namespace oriel

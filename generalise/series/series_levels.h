@@ -1,39 +1,32 @@
 #pragma once
 
 #include "generalise/generalise.h"
+#include "kernel/base/issue.h"
 #include "model/plan.h"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace oriel {
 
-/// A building on its way through the line; all of one building, made with the same options.
-struct SeriesInput {
-  const Building& building;
-  const LabelledBuilding& labelled;
-  const Solid& solid;
-  const Segmentation& segmentation;
-  const FeatureTable& table;
-  const Interpretation& interpretation;
-  SegmentOptions options{};
-  /// What must not change at 1 : scale; not given: anything may.
-  std::function<Invariants(double scale)> invariants_at{};
+/// Whom a series is drawn for: what is asked for at each scale, and what becomes of a level before
+/// it is written.
+class SeriesOrder {
+ public:
+  SeriesOrder() = default;
+  SeriesOrder(const SeriesOrder&) = delete;
+  SeriesOrder& operator=(const SeriesOrder&) = delete;
+  virtual ~SeriesOrder() = default;
+
+  /// What is asked for at 1 : scale.
+  [[nodiscard]] virtual Plan plan_at(double scale) const = 0;
+  /// What must not change at 1 : scale.
+  [[nodiscard]] virtual Invariants invariants_at(double /*scale*/) const { return {}; }
   /// What is still to be done to each level, and to each state between, once it is drawn.
-  std::function<void(LabelledBuilding&)> finish{};
-  /// Why a solid must not be written, if it must not; not given: any may.
-  std::function<std::optional<Issue>(const Solid&)> fault_of{};
-  /// As Invariants::work: once it is used up levels stay as the one before.
-  Work* work = nullptr;
-  /// Generalised::undrawn of every level.
-  std::vector<FeatureId> undrawn{};
-
-  [[nodiscard]] bool has_no_work_left() const { return is_used_up(work); }
+  virtual void finish(LabelledBuilding& /*level*/) const {}
+  /// Why a solid must not be written, if it must not.
+  [[nodiscard]] virtual std::optional<Issue> fault_of(const Solid& /*solid*/) const { return {}; }
 };
-
-/// What is asked for at 1 : scale.
-using PlanAt = std::function<Plan(double scale)>;
 
 /// A level of a series.
 struct SeriesLevel {
@@ -57,12 +50,14 @@ struct SeriesLevel {
 /// - A level that must not be written stays as the one before: the fault is a warning; as the
 ///   building came, it is an error.
 /// Issues as of generalise(); no value after an error.
-Checked<std::vector<SeriesLevel>> series_levels(const SeriesInput& input,
-                                                const std::vector<double>& scales,
-                                                const PlanAt& plan_at);
+/// Once RedrawContext::work is used up levels stay as the one before.
+Checked<std::vector<SeriesLevel>> series_levels(const RedrawContext& context,
+                                                const SeriesOrder& order,
+                                                const std::vector<double>& scales);
 
-/// What generalise and redraw make of some steps, drawn anew; nothing if nothing closed is left.
-std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std::vector<Step> steps,
-                                    const Invariants& invariants, std::vector<Issue>& issues);
+/// What generalise and redraw make of a plan, drawn anew and finished; nothing if nothing closed is
+/// left.
+std::optional<SeriesLevel> level_of(const RedrawContext& context, const SeriesOrder& order,
+                                    const Plan& plan, std::vector<Issue>& issues);
 
 }  // namespace oriel

@@ -25,4 +25,41 @@ struct OperatorKind {
 /// All operators by name.
 const std::vector<OperatorKind>& operator_table();
 
+/// What an operator redraws together: one feature; those of a row (of one storey and wall plane, or
+/// group of the pack), all of them or none, unless the step makes them blocks; those of one wall
+/// plane, of which some may stay as they are.
+enum class OperatorScope { feature, row, wall };
+
+/// What is carried out first: what puts features back, what moves a facet after what is put onto
+/// it, outlines last.
+enum class OperatorTurn { features, facets, outlines };
+
 }  // namespace oriel
+
+/// The table of all operators but `omit`, which draws nothing: name, scope, turn, meaning, and the
+/// arguments. `interpret` reads packs by it, `generalise` finds the function of that name
+/// (generalise/operators/operators.h). To add an operator: its function in a file of its own in
+/// generalise/operators, a row here, a section in docs/generalisation.md.
+#define ORIEL_OPERATORS(ROW)                                                                       \
+  ROW(aggregate, row, features,                                                                    \
+      "merges the recesses of a row into one strip, or a feature and the features on it into one " \
+      "block",                                                                                     \
+      {"into", "word", "the result", {"strip", "block"}},                                          \
+      {"gap", "length", "the least distance to neighbours"})                                       \
+  ROW(collapse, feature, outlines, "leaves an outline without depth")                              \
+  ROW(displace, wall, features, "moves the openings of a wall apart until gaps are wide enough",   \
+      {"to", "length", "the least width"}, {"gap", "length", "the least distance to neighbours"})  \
+  ROW(enlarge, feature, features, "makes the feature large enough to be seen",                     \
+      {"to", "length", "the least width and height"},                                              \
+      {"anchor", "word", "what stays in place", {"centre", "sill"}},                               \
+      {"gap", "length", "the least distance to neighbours"})                                       \
+  ROW(flatten, feature, facets,                                                                    \
+      "absorbs a thin feature into its facet, which moves if the feature covers most of it")       \
+  ROW(merge, feature, features, "makes the feature part of its host")                              \
+  ROW(symbolise, feature, features, "replaces the feature with a template",                        \
+      {"with", "word", "the template", {"chimney_block", "dormer_box", "balcony_box"}},            \
+      {"to", "length", "the least length of its sides"},                                           \
+      {"gap", "length", "the least distance to neighbours"})                                       \
+  ROW(typify, row, features, "replaces the recesses of a row with fewer ones",                     \
+      {"ratio", "ratio", "the share that stays"},                                                  \
+      {"gap", "length", "the least distance to neighbours"})

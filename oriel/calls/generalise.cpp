@@ -2,16 +2,15 @@
 
 #include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
-#include "interpret/plan/plan.h"
 #include "io/levels/written_grid.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
-#include "oriel/pipeline/drawing_quality.h"
-#include "oriel/pipeline/faulty_imprints.h"
-#include "oriel/pipeline/output_check.h"
+#include "oriel/drawing/drawing_quality.h"
+#include "oriel/drawing/faulty_imprints.h"
+#include "oriel/drawing/ladder.h"
+#include "oriel/drawing/output_check.h"
+#include "oriel/drawing/targets.h"
 #include "oriel/pipeline/pipeline.h"
-#include "oriel/pipeline/repair_and_retry.h"
-#include "oriel/pipeline/targets.h"
 
 #include <algorithm>
 #include <iterator>
@@ -28,401 +27,219 @@ namespace oriel {
 
 namespace {
 
-/// False if there is an error: the building is rejected.
-bool keep(const std::vector<Issue>& issues, GeneralisedBuilding& out) {
-  out.issues.insert(out.issues.end(), issues.begin(), issues.end());
-  return !has_errors(issues);
-}
-
-/// It could not be drawn as a valid solid of its own.
-bool is_invalid(const GeneralisedBuilding& drawn) {
-  return std::ranges::any_of(drawn.issues, [](const Issue& issue) {
-    return issue.place.feature.empty() && (issue.code == Code::G413 || issue.code == Code::G410);
-  });
-}
-
-/// How what is cut is judged on the way, by how it would be written.
-enum class Judging {
-  none,      ///< not at all: it would take too long
-  refused,   ///< where features do not come off, what is left instead
-  thorough,  ///< every step (SolidValidator::is_thorough)
-};
-
-/// Draws one building for its targets, so that it is valid as it is written. Refers to all that it
-/// is made of.
-class BuildingDrawer {
+/// Draws one building for its targets.
+class TargetDrawer : public DrawingLadder {
  public:
-  BuildingDrawer(const Document& document, const Building& building, const RuleBase& rules,
-                 const Targets& targets, const GeneraliseOptions& options, Work& work)
-      : document_(document),
-        building_(building),
-        rules_(rules),
-        targets_(targets),
-        options_(options),
-        work_(work) {}
+  TargetDrawer(const Document& document, const Building& building, const RuleBase& rules,
+               const Targets& targets, const GeneraliseOptions& options)
+      : DrawingLadder(document, building, rules, options), targets_(targets), asked_(options) {}
 
-  /// `result` has a solid that is closed.
-  [[nodiscard]] GeneralisedBuilding draw(const PipelineResult& result,
-                                         Judging judging = Judging::refused,
-                                         const std::vector<FeatureId>& undrawn = {}) const;
-
-  /// What is not valid as it is written is drawn again with each step judged; if that is not valid
-  /// either it stays unchanged, levels of detail are rejected (G410).
-  void keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const;
-
-  /// Draws a building that is not valid, or was given up, from its repair_and_retry(), with as much
-  /// work again, which becomes drawn.repaired; nothing is done if there is none, or if what was
-  /// given up is so again.
-  void repair(const PipelineResult& result, GeneralisedBuilding& drawn) const;
-
-  /// Draws what was given up once more, without the imprints that are in the way of a valid solid,
-  /// if it is valid then.
-  void draw_without_imprints(const PipelineResult& result, GeneralisedBuilding& drawn) const;
-
-  [[nodiscard]] std::optional<PipelineResult> repaired_open(const PipelineResult& result) const {
-    return repair_open(document_, building_, result, rules_, options_, work_);
-  }
-
-  /// What comes of a building that stays open.
-  [[nodiscard]] GeneralisedBuilding open() const {
-    GeneralisedBuilding drawn;
-    drawn.building = building_.id;
-    drawn.issues.push_back(stays_open(building_));
-    flag_unfinished(drawn);
-    return drawn;
-  }
-
-  /// Says so if the work is used up: not all was tried.
-  void flag_unfinished(GeneralisedBuilding& drawn) const {
-    if (work_.is_used_up()) drawn.issues.push_back(not_all_drawn(building_, work_));
+  GeneralisedBuilding drawing(const PipelineResult& result) {
+    Drawn drawn = run(result);
+    GeneralisedBuilding out;
+    out.building = building_.id;
+    out.is_given_up = is_given_up_;
+    if (is_given_up_) return out;
+    if (drawn.fault) leave(drawn);
+    if (drawn.used_up_budget)
+      drawn.issues.push_back(not_all_drawn(building_, *drawn.used_up_budget));
+    if (!has_errors(drawn.issues))
+      for (SeriesLevel& level : drawn.levels) out.levels.push_back(std::move(level.redrawn));
+    out.reports = std::move(drawn.reports);
+    out.issues = std::move(drawn.issues);
+    if (drawn.source && drawn.source->result.get() != &result)
+      out.repaired = std::move(drawn.source->result);
+    return out;
   }
 
  private:
-  struct LabelledResult {
-    const PipelineResult& result;
-    const LabelledBuilding& labelled;
-    const std::vector<FeatureId>& undrawn;  ///< Generalised::undrawn
-  };
-
-  [[nodiscard]] std::optional<Redrawn> draw_for(const Profile* profile, const LabelledResult& of,
-                                                Judging judging, GeneralisedBuilding& out) const;
-  [[nodiscard]] Plan plan_for(const Profile* profile, const PipelineResult& result,
-                              GeneralisedBuilding& out) const;
-  [[nodiscard]] Invariants invariants_for(const Profile* profile, const PipelineResult& result,
-                                          Judging judging) const;
-  [[nodiscard]] Checked<Generalised> carried_out(const Profile* profile,
-                                                 const PipelineResult& result,
-                                                 const Invariants& invariants, Plan& plan) const;
-  [[nodiscard]] std::optional<Issue> check(const PipelineResult& result,
-                                           GeneralisedBuilding& drawn) const;
-  void redraw_unchanged(const PipelineResult& result, Generalised& generalised,
-                        GeneralisedBuilding& out) const;
-  void keep_fineness(const Profile* profile, const PipelineResult& result,
-                     const Generalised& changes, const Redrawn& redrawn,
-                     GeneralisedBuilding& out) const;
-  /// Once that is so there is no work left either.
-  bool is_given_up(Stage stage) const {
-    const bool is_it = options_.is_given_up && options_.is_given_up(stage);
-    if (is_it) work_ = Work(-1);
-    return is_it;
+  void draw_levels(Drawn& drawn) override;
+  void check(Drawn& drawn) override;
+  /// Asks whoever waits, until nobody does.
+  bool is_given_up(Stage stage) override {
+    return is_given_up_ = is_given_up_ || (asked_.is_given_up && asked_.is_given_up(stage));
   }
-  [[nodiscard]] SolidValidator asking(SolidValidator validator) const;
-  void give_up(const PipelineResult& result, Issue fault, GeneralisedBuilding& drawn) const;
-  [[nodiscard]] Redrawn untouched(const PipelineResult& result, GeneralisedBuilding& out) const;
+
+  bool draw_for(const Profile* profile, RedrawContext& context, Drawn& drawn);
+  [[nodiscard]] Plan plan_for(const Profile* profile, Drawn& drawn) const;
+  Checked<Generalised> carried_out(const Profile* profile, const RedrawContext& context,
+                                   Plan& plan);
+  void redraw_unchanged(const DrawingSource& source, Generalised& generalised, Drawn& drawn) const;
+  void keep_fineness(const Profile* profile, const RedrawContext& context, const SeriesLevel& level,
+                     Drawn& drawn) const;
+  void leave(Drawn& drawn) const;
+  [[nodiscard]] SeriesLevel untouched(Drawn& drawn) const;
   [[nodiscard]] std::string target_text(const Profile* profile) const;
 
-  const Document& document_;
-  const Building& building_;
-  const RuleBase& rules_;
   const Targets& targets_;
-  const GeneraliseOptions& options_;
-  Work& work_;  ///< of all targets and all ways that are tried with one solid
+  const GeneraliseOptions& asked_;
+  bool is_given_up_ = false;
 };
 
-GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging judging,
-                                         const std::vector<FeatureId>& undrawn) const {
-  GeneralisedBuilding drawn;
-  drawn.building = building_.id;
-  const LabelledBuilding labelled = annotate(building_, result, rules_, options_);
+/// False if there is an error: the building is rejected.
+bool keep(const std::vector<Issue>& issues, Drawn& drawn) {
+  drawn.issues.insert(drawn.issues.end(), issues.begin(), issues.end());
+  return !has_errors(issues);
+}
+
+void TargetDrawer::draw_levels(Drawn& drawn) {
+  const PipelineResult& result = *drawn.source->result;
+  WrittenJudge judge(document_, building_, *result.solid, drawn.source->work,
+                     [this] { return is_given_up(Stage::generalise); });
+  RedrawContext context = context_of(drawn, &judge);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (is_given_up(Stage::generalise)) break;
+  for (std::size_t i = 0; i < count && !is_given_up(Stage::generalise); ++i) {
     const Profile* profile = i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr;
-    auto redrawn = draw_for(profile, {result, labelled, undrawn}, judging, drawn);
-    if (!redrawn) {
-      drawn.levels.clear();
-      break;
-    }
-    drawn.levels.push_back(std::move(*redrawn));
-  }
-  return drawn;
-}
-
-void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const {
-  std::optional<Issue> fault = check(result, drawn);
-  if (!fault) return;
-  if (work_.is_used_up()) return give_up(result, std::move(*fault), drawn);
-  // Where not even the solid itself is valid no step can be told to spoil it.
-  if (fault->code != Code::G413) {
-    GeneralisedBuilding again = draw(result, Judging::thorough);
-    if (!again.levels.empty() && !check(result, again)) {
-      drawn = std::move(again);
-      return;
-    }
-  }
-  give_up(result, std::move(*fault), drawn);
-}
-
-void BuildingDrawer::draw_without_imprints(const PipelineResult& result,
-                                           GeneralisedBuilding& drawn) const {
-  FaultyImprints faulty;
-  while (!work_.is_used_up()) {
-    GeneralisedBuilding again = draw(result, Judging::refused, faulty.ids());
-    if (again.levels.empty()) return;
-    if (!check(result, again)) {
-      keep(faulty.issues(result.description.table), again);
-      drawn = std::move(again);
-      return;
-    }
-    bool has_more = false;
-    for (const Redrawn& level : again.levels)
-      if (const auto& solid = level.labelled.geometry)
-        has_more |= faulty.add(document_, building_, *result.segmentation, *solid);
-    if (!has_more) return;
-  }
-}
-
-void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
-  Work work(options_.budget);
-  if (is_given_up(Stage::solidify)) return;
-  auto repaired = repair_and_retry(document_, building_, result, rules_, options_, work);
-  if (!repaired) return;
-  const BuildingDrawer anew(document_, building_, rules_, targets_, options_, work);
-  const bool is_intricate = oriel::is_intricate(*repaired);
-  GeneralisedBuilding again = measure(options_.observer, Stage::generalise, [&] {
-    return anew.draw(*repaired, is_intricate ? Judging::none : Judging::refused);
-  });
-  measure(options_.observer, Stage::write, [&] {
-    for (Redrawn& redrawn : again.levels) part_written(document_, building_, redrawn.labelled);
-    if (!is_intricate) return anew.keep_valid(*repaired, again);
-    if (auto fault = check(*repaired, again)) give_up(*repaired, std::move(*fault), again);
-  });
-  anew.flag_unfinished(again);
-  if (is_invalid(drawn) && is_invalid(again)) return;
-  drawn = std::move(again);
-  drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
-  drawn.repaired = std::move(repaired);
-}
-
-/// What is not valid as it is written is the fault.
-std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
-                                           GeneralisedBuilding& drawn) const {
-  std::optional<Issue> fault;
-  for (Redrawn& redrawn : drawn.levels) {
-    if (!redrawn.labelled.geometry) continue;
-    if (is_given_up(Stage::write)) return std::nullopt;
-    if (auto found = check_redrawn(document_, building_, *result.solid, *redrawn.labelled.geometry))
-      fault = std::move(found);
-  }
-  return fault;
-}
-
-void BuildingDrawer::give_up(const PipelineResult& result, Issue fault,
-                             GeneralisedBuilding& drawn) const {
-  drawn.levels.clear();
-  std::erase_if(drawn.issues, [](const Issue& issue) { return issue.code == Code::G413; });
-  if (targets_.has_lods() || fault.code == Code::G413) {
-    fault.severity = Severity::error;
-    drawn.issues.push_back(fault);
+    if (draw_for(profile, context, drawn)) continue;
+    drawn.levels.clear();
     return;
   }
-  fault.severity = Severity::warning;
-  fault.sentence += "; it stays unchanged";
-  drawn.issues.push_back(fault);
-  drawn.levels.push_back(untouched(result, drawn));
 }
 
-/// What nothing was done to stays unchanged, unless it came as no valid solid and its solid is
-/// valid: then that is drawn.
-void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised& generalised,
-                                      GeneralisedBuilding& out) const {
-  if (!generalised.removed.empty() || !generalised.changed.empty()) return;
-  const auto findings = validate(building_);
-  if (findings.empty()) return;
-  if (check_output(document_, building_, *result.solid)) {
-    out.issues.push_back(invalid_before(
-        building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence)));
-    return;
-  }
-  generalised.is_drawn_anew = true;
-  out.issues.push_back(building_issue(
-      Severity::note, Code::G419, building_.id,
-      fmt::format("was not valid in the input ({}) and is redrawn", to_string(findings[0].code))));
-}
-
-/// The building without any operation.
-Redrawn BuildingDrawer::untouched(const PipelineResult& result, GeneralisedBuilding& out) const {
-  LabelledBuilding labelled = annotate(building_, result, rules_, options_);
-  Generalised whole{*result.solid, {}};
-  whole.closing = closing_faces(whole.solid);
-  redraw_unchanged(result, whole, out);
-  if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
-  FaultyImprints faulty;
-  while (true) {
-    Redrawn redrawn = redraw(building_, labelled, *result.segmentation, result.description.table,
-                             result.interpretation, whole, result.tolerances);
-    if (!faulty.add(document_, building_, *result.segmentation, *redrawn.labelled.geometry)) {
-      keep(faulty.issues(result.description.table), out);
-      return redrawn;
-    }
-    whole.undrawn = faulty.ids();
+void TargetDrawer::check(Drawn& drawn) {
+  for (const SeriesLevel& level : drawn.levels) {
+    const auto& solid = level.redrawn.labelled.geometry;
+    if (!solid) continue;
+    if (is_given_up(Stage::write)) return;
+    if (auto found = fault_of(*drawn.source, *solid)) drawn.fault = std::move(found);
   }
 }
 
-std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const LabelledResult& of,
-                                                Judging judging, GeneralisedBuilding& out) const {
-  const PipelineResult& result = of.result;
-  const FeatureTable& table = result.description.table;
-  Plan plan = plan_for(profile, result, out);
-  auto made = carried_out(profile, result, invariants_for(profile, result, judging), plan);
-  if (!keep(made.issues, out) || !made.value || is_given_up(Stage::generalise)) return std::nullopt;
-  made.value->undrawn = of.undrawn;
+/// False if the building is rejected.
+bool TargetDrawer::draw_for(const Profile* profile, RedrawContext& context, Drawn& drawn) {
+  const PipelineResult& result = *drawn.source->result;
+  Plan plan = plan_for(profile, drawn);
+  context.invariants = with_party_walls(invariants_of(profile, rules_, targets_.scale), document_,
+                                        building_, result);
+  auto made = carried_out(profile, context, plan);
+  if (!keep(made.issues, drawn) || !made.value || is_given_up(Stage::generalise)) return false;
   // Levels of detail are drawn in any case, and judged as they are drawn.
-  if (!targets_.has_lods()) redraw_unchanged(result, *made.value, out);
-  TargetReport& report = out.reports.emplace_back();
+  if (!targets_.has_lods()) redraw_unchanged(*drawn.source, *made.value, drawn);
+  TargetReport& report = drawn.reports.emplace_back();
   report.target = target_text(profile);
-  if (options_.reports_changes)
-    report.changes = feature_outcomes(plan, *made.value, table, result.interpretation);
-  // What is kept of it is not known any more once it is redrawn.
-  const Generalised changes{{},    made.value->removed, made.value->refused,
-                            false, made.value->changed, made.value->uncleared};
-  std::optional<Redrawn> redrawn;
+  if (asked_.reports_changes)
+    report.changes = feature_outcomes(plan, *made.value, context.table, context.interpretation);
+  SeriesLevel level;
+  level.generalised = *made.value;
   if (targets_.has_lods()) {
     PlanLimits limits;
     if (profile->footprint_edge_m > 0)
       limits = plan_limits(document_, building_, result, options_.neighbours.get());
     // What is left of the drawing's work may be nothing; blocks have as much for themselves.
-    Work drawing(work_.budget());
-    auto level = to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation,
-                        *profile, std::move(*made.value), result.tolerances, drawing,
-                        std::move(limits.may_cover), std::move(limits.is_shared));
-    if (!keep(level.issues, out)) return std::nullopt;
-    redrawn = std::move(level.value);
+    Work drawing(context.work->budget());
+    auto redrawn = to_lod(context, *profile, std::move(*made.value), drawing,
+                          std::move(limits.may_cover), std::move(limits.is_shared));
+    if (!keep(redrawn.issues, drawn)) return false;
+    level.redrawn = std::move(*redrawn.value);
   } else {
-    redrawn = redraw(building_, of.labelled, *result.segmentation, table, result.interpretation,
-                     std::move(*made.value), result.tolerances);
+    level.redrawn = redraw(context, std::move(*made.value));
   }
-  keep_fineness(profile, result, changes, *redrawn, out);
-  return redrawn;
+  keep_fineness(profile, context, level, drawn);
+  finish_repaired(*drawn.source, level.redrawn.labelled);
+  drawn.levels.push_back(std::move(level));
+  return true;
 }
 
-Plan BuildingDrawer::plan_for(const Profile* profile, const PipelineResult& result,
-                              GeneralisedBuilding& out) const {
-  const auto& [table, graph, issues] = result.description;
-  Plan asked;
-  if (targets_.scale) asked = plan(rules_, table, graph, result.interpretation, *targets_.scale);
-  if (profile != nullptr)
-    asked = plan_by_profile(std::move(asked), *profile, rules_, *result.segmentation, table,
-                            result.interpretation, targets_.scale);
-  keep(asked.issues, out);
+Plan TargetDrawer::plan_for(const Profile* profile, Drawn& drawn) const {
+  Plan asked = plan_at(rules_, profile, *drawn.source->result, targets_.scale);
+  keep(asked.issues, drawn);
   return asked;
-}
-
-Invariants BuildingDrawer::invariants_for(const Profile* profile, const PipelineResult& result,
-                                          Judging judging) const {
-  Invariants invariants = with_party_walls(invariants_of(profile, rules_, targets_.scale),
-                                           document_, building_, result);
-  invariants.work = &work_;
-  if (judging != Judging::none)
-    invariants.validator = asking(
-        counted(judge_as_written(document_, building_, *result.solid, judging == Judging::thorough),
-                work_));
-  return invariants;
-}
-
-/// Before each of its judgements.
-SolidValidator BuildingDrawer::asking(SolidValidator validator) const {
-  if (!options_.is_given_up) return validator;
-  validator.fitness_of = [this, inner = std::move(validator.fitness_of)](const Solid& solid) {
-    return is_given_up(Stage::generalise) ? Fitness::unfit : inner(solid);
-  };
-  return validator;
 }
 
 /// With what has too fine edges taken off, if the profile asks for that; its steps are added to the
 /// plan.
-Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile,
-                                                 const PipelineResult& result,
-                                                 const Invariants& invariants, Plan& plan) const {
-  const FeatureTable& table = result.description.table;
-  const auto carry_out = [&] {
-    is_given_up(Stage::generalise);
-    return oriel::generalise(*result.solid, *result.segmentation, table, result.interpretation,
-                             plan, segment_options(options_, result.tolerances), invariants);
-  };
-  auto made = carry_out();
-  if (profile == nullptr || !profile->edge_min_m || !profile->edge_owner_b_m) return made;
-  while (made.value && !work_.is_used_up() &&
-         add_fine_owners(*made.value, *result.segmentation, table, *profile->edge_min_m,
-                         *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
-    made = carry_out();
+Checked<Generalised> TargetDrawer::carried_out(const Profile* profile, const RedrawContext& context,
+                                               Plan& plan) {
+  Checked<Generalised> made;
+  const bool takes_owners =
+      profile != nullptr && profile->edge_min_m.has_value() && profile->edge_owner_b_m.has_value();
+  do {
+    if (is_given_up(Stage::generalise)) return {};
+    made = generalise(context, plan);
+  } while (takes_owners && made.value && !context.has_no_work_left() &&
+           add_fine_owners(*made.value, context.segmentation, context.table, *profile->edge_min_m,
+                           *profile->edge_owner_b_m, profile->title() + "/edge-min", plan));
   return made;
 }
 
-void BuildingDrawer::keep_fineness(const Profile* profile, const PipelineResult& result,
-                                   const Generalised& changes, const Redrawn& redrawn,
-                                   GeneralisedBuilding& out) const {
+/// What nothing was done to stays unchanged, unless it came as no valid solid and its solid is
+/// valid: then that is drawn.
+void TargetDrawer::redraw_unchanged(const DrawingSource& source, Generalised& generalised,
+                                    Drawn& drawn) const {
+  if (!generalised.removed.empty() || !generalised.changed.empty()) return;
+  const auto findings = validate(building_);
+  if (findings.empty()) return;
+  if (check_output(document_, building_, *source.result->solid)) {
+    drawn.fault = invalid_before(
+        building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence));
+    return;
+  }
+  generalised.is_drawn_anew = true;
+  drawn.issues.push_back(building_issue(
+      Severity::note, Code::G419, building_.id,
+      fmt::format("was not valid in the input ({}) and is redrawn", to_string(findings[0].code))));
+}
+
+void TargetDrawer::keep_fineness(const Profile* profile, const RedrawContext& context,
+                                 const SeriesLevel& level, Drawn& drawn) const {
   const double least_m = least_edge_m(profile, targets_.scale);
-  const Solid& before = *result.solid;
-  const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
+  const Solid& before = context.solid;
+  const auto& geometry = level.redrawn.labelled.geometry;
   Fineness asked{least_m, profile != nullptr && profile->edge_min_m.has_value()};
   if (profile != nullptr && profile->form != Profile::Form::as_is && profile->footprint_edge_m == 0)
     asked.why_not_tried = "blocks keep the footprint and the heights of the roof";
-  keep(fineness_issues(building_, before, after, *result.segmentation, result.description.table,
-                       changes, asked),
-       out);
+  keep(fineness_issues(building_, before, geometry ? *geometry : before, context.segmentation,
+                       context.table, level.generalised, asked),
+       drawn);
   // They are measured when it is known what is written.
-  if (!options_.reports_figures) return;
-  TargetFigures& figures = out.reports.back().figures.emplace();
+  if (!asked_.reports_figures) return;
+  TargetFigures& figures = drawn.reports.back().figures.emplace();
   figures.least_edge_m = least_m;
   figures.map_scale = targets_.scale.value_or(0);
 }
 
-std::string BuildingDrawer::target_text(const Profile* profile) const {
+/// What is valid in no way stays unchanged at a scale; levels of detail, and what was not valid
+/// when it was read, are rejected.
+void TargetDrawer::leave(Drawn& drawn) const {
+  Issue fault = std::move(*drawn.fault);
+  drawn.levels.clear();
+  if (targets_.has_lods() || fault.code == Code::G413) {
+    fault.severity = Severity::error;
+    drawn.issues.push_back(std::move(fault));
+    return;
+  }
+  fault.severity = Severity::warning;
+  fault.sentence += "; it stays unchanged";
+  drawn.issues.push_back(std::move(fault));
+  drawn.fault.reset();
+  SeriesLevel level = untouched(drawn);
+  if (drawn.fault) drawn.issues.push_back(std::move(*drawn.fault));
+  drawn.levels.push_back(std::move(level));
+}
+
+/// The building without any operation.
+SeriesLevel TargetDrawer::untouched(Drawn& drawn) const {
+  const PipelineResult& result = *drawn.source->result;
+  drawn.undrawn.clear();
+  RedrawContext context = context_of(drawn, nullptr);
+  SeriesLevel level;
+  level.generalised = Generalised{*result.solid, {}};
+  level.generalised.closing = closing_faces(*result.solid);
+  redraw_unchanged(*drawn.source, level.generalised, drawn);
+  level.redrawn = {context.labelled, {}, {}};
+  if (!level.generalised.is_drawn_anew) return level;
+  FaultyImprints faulty;
+  do {
+    context.undrawn = faulty.ids();
+    level.redrawn = redraw(context, level.generalised);
+  } while (
+      faulty.add(document_, building_, *result.segmentation, *level.redrawn.labelled.geometry));
+  keep(faulty.issues(result.description.table), drawn);
+  return level;
+}
+
+std::string TargetDrawer::target_text(const Profile* profile) const {
   return targets_.has_lods() ? "LoD " + profile->level : targets_.text();
-}
-
-bool has_imprints(const Segmentation& segmentation) {
-  return std::ranges::find(segmentation.features, Sense::imprint, &Feature::sense) !=
-         segmentation.features.end();
-}
-
-/// Where the solid that is drawn comes from.
-enum class Origin { input, repaired };
-
-/// What is not valid is drawn from a repaired solid, but for one that is repaired already: its
-/// features were found in a solid that is valid.
-GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineResult& result,
-                                  Origin origin, const StageObserver& observer) {
-  GeneralisedBuilding drawn =
-      measure(observer, Stage::generalise, [&] { return drawer.draw(result); });
-  measure(observer, Stage::write, [&] { drawer.keep_valid(result, drawn); });
-  drawer.flag_unfinished(drawn);
-  if (is_invalid(drawn) && origin == Origin::input) drawer.repair(result, drawn);
-  if (is_invalid(drawn) && has_imprints(*result.segmentation))
-    measure(observer, Stage::generalise, [&] { drawer.draw_without_imprints(result, drawn); });
-  return drawn;
-}
-
-/// Of an open building, from what repair_open() makes of it.
-GeneralisedBuilding open_drawing(const BuildingDrawer& drawer, const PipelineResult& result,
-                                 const StageObserver& observer) {
-  auto repaired = drawer.repaired_open(result);
-  if (!repaired) return drawer.open();
-  GeneralisedBuilding drawn = valid_drawing(drawer, *repaired, Origin::repaired, observer);
-  drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
-  if (!drawn.repaired) drawn.repaired = std::move(repaired);
-  return drawn;
 }
 
 /// Measures what is written for each target.
@@ -509,33 +326,24 @@ void add_stood_for(const std::vector<std::string>& ids, GeneralisedBuilding& mad
 
 GeneralisedBuilding generalise(const Document& document, const Building& building,
                                const PipelineResult& result, const RuleBase& rules,
-                               const Targets& targets, const GeneraliseOptions& asked) {
-  if (asked.groups && result.surroundings)
-    if (auto grouped = as_part_of_group(building, result, rules, asked)) return *grouped;
+                               const Targets& targets, const GeneraliseOptions& options) {
+  if (options.groups && result.surroundings)
+    if (auto grouped = as_part_of_group(building, result, rules, options)) return *grouped;
   if (!building.installations.empty()) {
     const Building alone = without_installations(building);
-    return generalise(document, alone, label(alone, rules, asked), rules, targets, asked);
+    return generalise(document, alone, label(alone, rules, options), rules, targets, options);
   }
-  GeneralisedBuilding drawn;
-  drawn.building = building.id;
-  if (!result.is_done()) return drawn;
-  GeneraliseOptions options = asked;
-  bool is_given_up = false;
-  if (asked.is_given_up)
-    options.is_given_up = [&](Stage stage) {
-      return is_given_up = is_given_up || asked.is_given_up(stage);
-    };
-  Work work = drawing_work(options.budget);
-  const BuildingDrawer drawer(document, building, rules, targets, options, work);
+  if (!result.is_done()) {
+    GeneralisedBuilding none;
+    none.building = building.id;
+    return none;
+  }
   return logged(
       "generalised", building,
       [&] {
         GeneralisedBuilding made =
-            result.is_open() ? open_drawing(drawer, result, options.observer)
-                             : valid_drawing(drawer, result, Origin::input, options.observer);
-        drawn.is_given_up = is_given_up;
-        if (is_given_up) return drawn;
-        if (has_errors(made.issues)) made.levels.clear();
+            TargetDrawer(document, building, rules, targets, options).drawing(result);
+        if (made.is_given_up) return made;
         if (options.reports_figures)
           measure_figures(document, building, result, rules, options, made);
         if (options.groups && result.surroundings) {
@@ -551,7 +359,7 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
       },
       [](const GeneralisedBuilding& made) {
         return fmt::format("targets={} issues={} repaired={}", made.levels.size(),
-                           made.issues.size(), made.repaired.has_value());
+                           made.issues.size(), made.repaired != nullptr);
       });
 }
 

@@ -2,9 +2,10 @@
 
 #include "generalise/generalise.h"
 #include "model/version.h"
-#include "oriel/pipeline/output_check.h"
+#include "oriel/drawing/output_check.h"
+#include "oriel/drawing/repair_and_retry.h"
+#include "oriel/drawing/targets.h"
 #include "oriel/pipeline/pipeline.h"
-#include "oriel/pipeline/repair_and_retry.h"
 #include "oriel/segment.h"
 
 #include <algorithm>
@@ -126,9 +127,7 @@ Checked<LabelledBuilding> on_solid(const Document& document, const Building& bui
   whole.is_drawn_anew = true;
   whole.closing = closing_faces(whole.solid);
   LabelledBuilding drawn =
-      redraw(building, labelled, *result.segmentation, result.description.table,
-             result.interpretation, std::move(whole), result.tolerances)
-          .labelled;
+      redraw(redraw_context(building, result, labelled), std::move(whole)).labelled;
   if (const auto fault = check_output(document, building, *drawn.geometry)) return {{}, {*fault}};
   return {std::move(drawn), {}};
 }

@@ -6,11 +6,10 @@
 #include "interpret/plan/plan.h"
 #include "io/levels/level_file.h"
 #include "io/levels/written_grid.h"
-#include "oriel/pipeline/faulty_imprints.h"
-#include "oriel/pipeline/output_check.h"
+#include "oriel/drawing/ladder.h"
+#include "oriel/drawing/output_check.h"
+#include "oriel/drawing/targets.h"
 #include "oriel/pipeline/pipeline.h"
-#include "oriel/pipeline/repair_and_retry.h"
-#include "oriel/pipeline/targets.h"
 
 #include <algorithm>
 #include <exception>
@@ -26,26 +25,87 @@ namespace oriel {
 
 namespace {
 
-/// One building with its levels, before the grid of the file is known.
-struct LeveledBuilding {
-  const Building* building = nullptr;
-  const PipelineResult* result = nullptr;
-  LabelledBuilding labelled;
-  bool is_judged = false;  ///< each step of its levels is, which takes long
-  /// It is drawn from a repaired solid: folded facets are parted, and each level judged by itself.
-  bool is_repaired = false;
-  std::vector<SeriesLevel> levels{};
-  std::unique_ptr<FiringScales> firing{};  ///< none if only levels are asked for
-  FaultyImprints undrawn{};
-  std::vector<Issue> issues{};  ///< of its levels
-  /// Of the building as it came, before anything is done for a scale.
-  std::optional<Issue> finest_fault{};
-  std::unique_ptr<const PipelineResult> repaired{};  ///< what `result` is, if it was repaired
-  std::shared_ptr<Work> work{};                      ///< of all its levels and operations
-  std::vector<double> scales{};                      ///< at which it is drawn by itself
+/// Draws the levels of one building.
+class LevelDrawer : public DrawingLadder, public SeriesOrder {
+ public:
+  /// `scales`: at which it is drawn by itself, of those of the series, the first of which is
+  /// `first_scale`.
+  LevelDrawer(const Document& document, const Building& building, const RuleBase& rules,
+              const SeriesOptions& options, std::vector<double> scales, double first_scale)
+      : DrawingLadder(document, building, rules, options),
+        profile_(options.profile ? &*options.profile : nullptr),
+        scales_(std::move(scales)),
+        first_scale_(first_scale) {}
 
-  /// All levels are valid solids in the file, and so is the building as it came.
-  [[nodiscard]] bool is_valid() const { return !has_errors(issues) && !finest_fault; }
+  /// None if one cannot be written as a valid solid (G410, G413); the building as it came need not
+  /// be valid, if its levels are.
+  void run(const PipelineResult& result) {
+    drawn_ = DrawingLadder::run(result);
+    from_ = drawn_.source;
+    if (drawn_.fault) {
+      drawn_.issues.push_back(std::move(*drawn_.fault));
+    } else if (drawn_.finest_fault) {
+      drawn_.finest_fault->severity = Severity::warning;
+      drawn_.finest_fault->sentence += fmt::format("; its levels from 1:{} on are", first_scale_);
+      drawn_.issues.push_back(std::move(*drawn_.finest_fault));
+    }
+    if (drawn_.used_up_budget)
+      drawn_.issues.push_back(not_all_drawn(building_, *drawn_.used_up_budget));
+  }
+
+  [[nodiscard]] const Drawn& drawn() const { return drawn_; }
+  [[nodiscard]] const Building& building() const { return building_; }
+
+  /// All that leads from level to level. At least one scale, though nothing fires between the
+  /// building as it came and nothing else.
+  [[nodiscard]] ScaleSeries operations(const std::vector<double>& bounds,
+                                       const Placer& place) const {
+    const FiringScales firing(scales_.empty() ? std::vector<double>{1} : scales_, bounds, *this);
+    return scale_series(context_of(drawn_, nullptr), *this, drawn_.levels, firing, place);
+  }
+
+  [[nodiscard]] Plan plan_at(double scale) const override {
+    return oriel::plan_at(rules_, profile_, *from_->result, scale);
+  }
+  [[nodiscard]] Invariants invariants_at(double scale) const override {
+    return with_party_walls(invariants_of(profile_, rules_, scale), document_, building_,
+                            *from_->result);
+  }
+  void finish(LabelledBuilding& level) const override { finish_repaired(*from_, level); }
+  /// Of a repaired solid each level is judged by itself.
+  [[nodiscard]] std::optional<Issue> fault_of(const Solid& solid) const override {
+    return from_->is_repaired ? DrawingLadder::fault_of(*from_, solid) : std::nullopt;
+  }
+
+ private:
+  void draw_levels(Drawn& drawn) override {
+    from_ = drawn.source;
+    WrittenJudge judge(document_, building_, *from_->result->solid, drawn.source->work);
+    auto levels = series_levels(context_of(drawn, &judge), *this, scales_);
+    drawn.issues = std::move(levels.issues);
+    if (levels.value) drawn.levels = std::move(*levels.value);
+  }
+
+  void check(Drawn& drawn) override {
+    const auto fault = [&](const SeriesLevel& level) {
+      return DrawingLadder::fault_of(*drawn.source, *level.redrawn.labelled.geometry);
+    };
+    const auto& levels = drawn.levels;
+    if (levels.empty()) return;
+    drawn.finest_fault = fault(levels[0]);
+    for (std::size_t i = 1; i < levels.size() && !drawn.fault; ++i) {
+      const bool is_same = levels[i].generalised.removed == levels[i - 1].generalised.removed &&
+                           levels[i].generalised.changed.empty();
+      if (is_same && i > 1) continue;
+      drawn.fault = is_same ? drawn.finest_fault : fault(levels[i]);
+    }
+  }
+
+  const Profile* profile_;
+  std::vector<double> scales_;
+  double first_scale_;
+  Drawn drawn_;
+  std::shared_ptr<const DrawingSource> from_;  ///< of what is drawn at the time
 };
 
 /// Draws the levels of a record's buildings.
@@ -67,7 +127,7 @@ class SeriesDrawer {
 
   Series draw(const std::vector<PipelineResult>& results, const StageObserver& observer) {
     Series series;
-    std::vector<LeveledBuilding> all;
+    std::vector<std::unique_ptr<LevelDrawer>> all;
     for (std::size_t i = 0; i < results.size() && !groups_.empty(); ++i)
       if (results[i].surroundings)
         around_.emplace(&document_.buildings[i], &*results[i].surroundings);
@@ -78,7 +138,7 @@ class SeriesDrawer {
     const WrittenGrid grid(document_);
     series.finer_digits = grid.finer_digits();
     measure(observer, Stage::generalise, [&] {
-      for (const LeveledBuilding& one : all) add_operations(one, grid, series);
+      for (const auto& one : all) add_operations(*one, grid, series);
       add_undrawn(grid, series);
     });
     for (const Building& building : document_.buildings)
@@ -89,210 +149,47 @@ class SeriesDrawer {
   }
 
  private:
-  /// The levels of a building; none if one cannot be written as a valid solid (G410, G413). First
-  /// its steps are judged, then it is repaired, where either helps.
   void add_levels(const Building& building, const PipelineResult& result,
-                  std::vector<LeveledBuilding>& all, Series& series) {
-    LeveledBuilding one = logged(
+                  std::vector<std::unique_ptr<LevelDrawer>>& all, Series& series) {
+    std::vector<double> scales = scales_;
+    scales.resize(std::min(first_in_its_block(building), scales_.size()));
+    auto one = std::make_unique<LevelDrawer>(document_, building, rules_, options_,
+                                             std::move(scales), scales_.front());
+    const Drawn& drawn = logged(
         "drawn at all scales", building,
-        [&] {
-          return result.is_open() ? open_levels(building, result) : valid_levels(building, result);
+        [&]() -> const Drawn& {
+          one->run(result);
+          return one->drawn();
         },
-        [](const LeveledBuilding& made) {
+        [](const Drawn& made) {
           return fmt::format("levels={} issues={}", made.levels.size(), made.issues.size());
         });
-    series.issues.insert(series.issues.end(), one.issues.begin(), one.issues.end());
-    if (one.work->is_used_up()) series.issues.push_back(not_all_drawn(building, *one.work));
+    const bool is_drawn = !has_errors(drawn.issues);
+    series.issues.insert(series.issues.end(), drawn.issues.begin(), drawn.issues.end());
     if (!options_.has_only_levels)
-      std::ranges::move(invalid_rest(document_, building, !has_errors(one.issues)),
+      std::ranges::move(invalid_rest(document_, building, is_drawn),
                         std::back_inserter(series.issues));
-    if (has_errors(one.issues)) return;
+    if (!is_drawn) return;
     series.drawn.push_back(building.id);
     all.push_back(std::move(one));
   }
 
-  [[nodiscard]] LeveledBuilding valid_levels(const Building& building,
-                                             const PipelineResult& result) const {
-    const auto work = std::make_shared<Work>(drawing_work(options_.budget));
-    LeveledBuilding one = with_levels(building, result, work);
-    if (has_errors(one.issues) && !work->is_used_up()) judge(one);
-    if (!one.is_valid()) repair(one);
-    if (!one.is_valid()) draw_without_imprints(one);
-    if (one.finest_fault) {
-      one.finest_fault->sentence += fmt::format("; its levels from 1:{} on are", scales_.front());
-      one.issues.push_back(std::move(*one.finest_fault));
-    }
-    return one;
-  }
-
-  /// Of an open building, from what repair_open() makes of it.
-  [[nodiscard]] LeveledBuilding open_levels(const Building& building,
-                                            const PipelineResult& result) const {
-    const auto work = std::make_shared<Work>(drawing_work(options_.budget));
-    auto repaired = repair_open(document_, building, result, rules_, options_, *work);
-    if (!repaired) {
-      LeveledBuilding none{&building, &result, {}};
-      none.work = work;
-      none.issues.push_back(stays_open(building));
-      return none;
-    }
-    auto closed = std::make_unique<const PipelineResult>(std::move(*repaired));
-    LeveledBuilding one = valid_levels(building, *closed);
-    one.issues.insert(one.issues.begin(), closed->issues.back());
-    if (!one.repaired) one.repaired = std::move(closed);
-    return one;
-  }
-
-  [[nodiscard]] LeveledBuilding with_levels(const Building& building, const PipelineResult& result,
-                                            const std::shared_ptr<Work>& work,
-                                            bool is_repaired = false) const {
-    LeveledBuilding one{&building, &result, annotate(building, result, rules_, options_)};
-    one.is_repaired = is_repaired;
-    one.work = work;
-    one.scales = scales_;
-    one.scales.resize(std::min(first_in_its_block(building), scales_.size()));
-    draw_levels(one);
-    return one;
-  }
-
-  /// Draws them again without the imprints that keep them from being valid, if they are then.
-  void draw_without_imprints(LeveledBuilding& one) const {
-    while (!one.is_valid() && !one.work->is_used_up() && add_faulty(one)) draw_levels(one);
-    if (one.undrawn.ids().empty()) return;
-    if (one.is_valid()) {
-      const auto issues = one.undrawn.issues(one.result->description.table);
-      one.issues.insert(one.issues.end(), issues.begin(), issues.end());
-    } else {
-      one.undrawn = {};
-      draw_levels(one);
-    }
-  }
-
-  /// False if there are no more than were known.
-  bool add_faulty(LeveledBuilding& one) const {
-    bool has_more = false;
-    for (const SeriesLevel& level : one.levels)
-      has_more |= one.undrawn.add(document_, *one.building, one.result->segmentation.value(),
-                                  *level.redrawn.labelled.geometry);
-    return has_more;
-  }
-
-  /// Draws them again with every step judged.
-  void judge(LeveledBuilding& one) const {
-    one.is_judged = true;
-    draw_levels(one);
-  }
-
-  /// Draws them from the repaired solid, if they are valid then.
-  void repair(LeveledBuilding& one) const {
-    const auto work = std::make_shared<Work>(options_.budget);
-    auto repaired =
-        repair_and_retry(document_, *one.building, *one.result, rules_, options_, *work);
-    if (!repaired) return;
-    auto result = std::make_unique<const PipelineResult>(std::move(*repaired));
-    LeveledBuilding anew = with_levels(*one.building, *result, work, true);
-    if (!anew.is_valid()) return;
-    anew.issues.insert(anew.issues.begin(), result->issues.back());
-    anew.repaired = std::move(result);
-    one = std::move(anew);
-  }
-
-  [[nodiscard]] SeriesInput input_of(const LeveledBuilding& one) const {
-    SeriesInput input{*one.building,
-                      one.labelled,
-                      *one.result->solid,
-                      *one.result->segmentation,
-                      one.result->description.table,
-                      one.result->interpretation,
-                      segment_options(options_, one.result->tolerances),
-                      [this, &one](double scale) { return invariants_at(one, scale); },
-                      nullptr,
-                      nullptr,
-                      one.work.get(),
-                      one.undrawn.ids()};
-    if (!one.is_repaired) return input;
-    input.finish = [this, building = one.building](LabelledBuilding& labelled) {
-      part_written(document_, *building, labelled);
-    };
-    input.fault_of = [this, building = one.building, result = one.result](const Solid& solid) {
-      return check_redrawn(document_, *building, *result->solid, solid);
-    };
-    return input;
-  }
-
-  [[nodiscard]] Invariants invariants_at(const LeveledBuilding& one, double scale) const {
-    const Solid& solid = *one.result->solid;
-    Invariants invariants = with_party_walls(invariants_of(profile_, rules_, scale), document_,
-                                             *one.building, *one.result);
-    invariants.work = one.work.get();
-    if (!one.is_repaired || !is_intricate(*one.result))
-      invariants.validator =
-          counted(judge_as_written(document_, *one.building, solid, one.is_judged), *one.work);
-    return invariants;
-  }
-
-  void draw_levels(LeveledBuilding& one) const {
-    const PipelineResult& result = *one.result;
-    const auto& [table, graph, issues] = result.description;
-    const PlanAt plan_at = [&](double scale) {
-      Plan asked = plan(rules_, table, graph, result.interpretation, scale);
-      if (profile_ != nullptr)
-        asked = plan_by_profile(std::move(asked), *profile_, rules_, *result.segmentation, table,
-                                result.interpretation, scale);
-      return asked;
-    };
-    auto levels = series_levels(input_of(one), one.scales, plan_at);
-    one.issues = std::move(levels.issues);
-    one.levels.clear();
-    one.finest_fault.reset();
-    if (!levels.value) return;
-    one.levels = std::move(*levels.value);
-    check(one);
-    if (options_.has_only_levels) return;
-    // At least one scale, though nothing fires between the building as it came and nothing else.
-    one.firing = std::make_unique<FiringScales>(
-        one.scales.empty() ? std::vector<double>{1} : one.scales, bounds_, plan_at);
-  }
-
-  /// A level that is not valid as it is written is an error; the building as it came need not be,
-  /// if its levels are.
-  void check(LeveledBuilding& one) const {
-    one.finest_fault = fault_of(one, one.levels[0]);
-    for (std::size_t i = 1; i < one.levels.size() && !has_errors(one.issues); ++i) {
-      const SeriesLevel& level = one.levels[i];
-      const bool is_same = level.generalised.removed == one.levels[i - 1].generalised.removed &&
-                           level.generalised.changed.empty();
-      if (is_same && i > 1) continue;
-      std::optional<Issue> fault = is_same ? one.finest_fault : fault_of(one, level);
-      if (!fault) continue;
-      fault->severity = Severity::error;
-      one.issues.push_back(std::move(*fault));
-    }
-    if (one.finest_fault) one.finest_fault->severity = Severity::warning;
-    if (has_errors(one.issues)) one.finest_fault.reset();
-  }
-
-  [[nodiscard]] std::optional<Issue> fault_of(const LeveledBuilding& one,
-                                              const SeriesLevel& level) const {
-    return check_redrawn(document_, *one.building, *one.result->solid,
-                         *level.redrawn.labelled.geometry);
-  }
-
-  void add_operations(const LeveledBuilding& one, const WrittenGrid& grid, Series& out) const {
-    const Frame& frame = one.building->frame;
-    BuildingSeries building{one.building->id, frame, one.labelled.attributes, {}, {}, false};
-    for (const Installation& installation : one.labelled.installations)
+  void add_operations(const LevelDrawer& one, const WrittenGrid& grid, Series& out) const {
+    const Building& from = one.building();
+    const LabelledBuilding& labelled = one.drawn().source->labelled;
+    BuildingSeries building{from.id, from.frame, labelled.attributes, {}, {}, false};
+    for (const Installation& installation : labelled.installations)
       building.installations.push_back(installation.id);
-    const Placer place = [&](Vec3 local_m) { return grid.place(local_m, frame); };
+    const Placer place = [&](Vec3 local_m) { return grid.place(local_m, from.frame); };
     try {
-      building.series = one.firing ? scale_series(input_of(one), one.levels, *one.firing, place)
-                                   : level_series(one.levels, place);
-      add_groups(*one.building, place, building.series);
+      building.series = options_.has_only_levels ? level_series(one.drawn().levels, place)
+                                                 : one.operations(bounds_, place);
+      add_groups(from, place, building.series);
     } catch (const DoubledFacet& fault) {
-      out.issues.push_back(doubled(*one.building, fault));
+      out.issues.push_back(doubled(from, fault));
       return;
     } catch (const GeometryError& fault) {
-      out.issues.push_back(own_fault(*one.building, fault));
+      out.issues.push_back(own_fault(from, fault));
       return;
     }
     add(std::move(building), out);

@@ -8,6 +8,7 @@
 #include "kernel/geometry/directions.h"
 #include "kernel/geometry/outlines.h"
 #include "model/solid.h"
+#include "oriel/drawing/targets.h"
 #include "oriel/energy.h"
 #include "oriel/options.h"
 
@@ -183,15 +184,13 @@ class EnvelopeSurvey {
   EnvelopeSurvey(const PipelineResult& result, const RuleBase& rules, const EnergyOptions& energy)
       : result_(result), segmentation_(*result.segmentation), rules_(rules), energy_(energy) {}
 
-  void survey(const PipelineOptions& options, BuildingEnergy& out) {
+  void survey(const Building& building, const PipelineOptions& options, BuildingEnergy& out) {
     sort_features();
     Plan plan;
     for (const FeatureId feature : leaving_)
       plan.steps.push_back({feature, "omit", "energy/heated-body"});
     const Solid& whole = *result_.solid;
-    auto made =
-        oriel::generalise(whole, segmentation_, result_.description.table, result_.interpretation,
-                          plan, segment_options(options, result_.tolerances));
+    auto made = oriel::generalise(redraw_context(building, result_, result_.output, options), plan);
     body_ = made.value ? std::move(made.value->solid) : whole;
     for (const FeatureId feature : leaving_)
       if (!made.value || !std::ranges::binary_search(made.value->removed, feature))
@@ -429,7 +428,7 @@ BuildingEnergy energy_of(const Building& building, const PipelineResult& result,
   out.is_known = true;
   out.is_closed = !result.is_open();
   EnvelopeSurvey envelope(result, rules, energy);
-  envelope.survey(options, out);
+  envelope.survey(building, options, out);
   out.storeys = envelope.storeys_of_openings();
   if (out.storeys) out.storeys_source = "openings";
   return out;

@@ -1,6 +1,6 @@
 #include "generalise/invariants/fineness.h"
 #include "interpret/labelling/interpret.h"
-#include "interpret/plan/plan.h"
+#include "tests/generalise/bare_context.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"
 
@@ -22,26 +22,24 @@ const RuleBase& cartographic() {
 
 /// What the pack makes of a building at 1 : scale.
 struct Redraft {
-  Interpretation labels;
+  Line named;
   Plan plan;
   Generalised generalised;
 };
 
 Redraft redraft(const Line& line, double scale, double least_edge_m = 0,
                 const std::string& without = {}) {
-  const auto& [table, graph, issues] = line.description;
-  Interpretation labels = interpret(cartographic(), table, graph);
-  Plan asked = plan(cartographic(), table, graph, labels, scale);
+  Line named = line;
+  named.interpretation = interpret(cartographic(), line.table(), line.description.graph);
+  Plan asked = named.plan_at(scale, cartographic());
   std::erase_if(asked.steps, [&](const Step& step) { return step.operation == without; });
-  Invariants invariants;
-  invariants.least_edge_m = least_edge_m;
-  invariants.validator.fitness_of = [](const Solid& solid) {
-    return is_closed(solid) ? Fitness::valid : Fitness::unfit;
-  };
-  auto out = generalise(line.solid, line.segmentation, table, labels, asked, {}, invariants);
+  RedrawContext context = named.context();
+  context.invariants.least_edge_m = least_edge_m;
+  context.judge = &any_closed();
+  auto out = generalise(context, asked);
   REQUIRE(out.value);
   CHECK(is_closed(out.value->solid));
-  return {std::move(labels), std::move(asked), std::move(*out.value)};
+  return {std::move(named), std::move(asked), std::move(*out.value)};
 }
 
 /// How many features have become what by which operator at 1 : scale.
@@ -62,9 +60,7 @@ std::size_t short_edges_drawn(const Line& line, const Generalised& made, double 
 
 LabelledBuilding relabelled(const Line& line, double scale) {
   const Redraft made = redraft(line, scale);
-  return redraw(line.building(), line.labelled, line.segmentation, line.table(), made.labels,
-                made.generalised)
-      .labelled;
+  return redraw(made.named.context(), made.generalised).labelled;
 }
 
 /// How many facets of each type the installations with that label have.
@@ -164,13 +160,13 @@ TEST_SUITE("generalise") {
     const Line line = line_of_sample("house");
     const Redraft made = redraft(line, 2500, 0, "symbolise");
     CHECK(new_undersides(made.generalised.solid) == 0);
-    const auto is_carried = [](const CarriedOut::Refused& refused) {
+    const auto is_carried = [](const RefusedStep& refused) {
       return refused.code == Code::G411 && refused.reason.starts_with("what stands on it");
     };
     const auto& refused = made.generalised.refused;
     const auto piece = std::ranges::find_if(refused, is_carried);
     REQUIRE(piece != refused.end());
-    CHECK(is_part(*piece, made.plan, made.labels));
+    CHECK(is_part(*piece, made.plan, made.named.interpretation));
     FeatureId chimney = line.segmentation.features[piece->feature.index()].parent;
     while (chimney.is_valid() && line.label(chimney) != "chimney")
       chimney = line.segmentation.features[chimney.index()].parent;

@@ -1,13 +1,18 @@
 #include "generalise/generalise.h"
 
+#include "generalise/carry_out.h"
 #include "generalise/invariants/fineness.h"
 #include "generalise/series/series_levels.h"
+#include "tests/generalise/bare_context.h"
 #include "tests/generalise/line.h"
 #include "tests/support/changed.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -56,8 +61,7 @@ struct Plinth {
   [[nodiscard]] Generalised generalised(double least_edge_m) const {
     Invariants invariants;
     invariants.least_edge_m = least_edge_m;
-    auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan,
-                          SegmentOptions{}, invariants);
+    auto out = generalise(line.context(invariants), plan);
     REQUIRE(out.value);
     return std::move(*out.value);
   }
@@ -66,6 +70,37 @@ struct Plinth {
     return new_short_edges(line.solid, of.solid, line.segmentation, of.removed, 1.25).size();
   }
 };
+
+/// Its plan at scales 1 to n, each with its least edge.
+class PlinthOrder : public SeriesOrder {
+ public:
+  PlinthOrder(const Plinth& plinth, std::vector<double> least_edges_m)
+      : plinth_(plinth), least_edges_m_(std::move(least_edges_m)) {}
+
+  [[nodiscard]] Plan plan_at(double /*scale*/) const override { return plinth_.plan; }
+  [[nodiscard]] Invariants invariants_at(double scale) const override {
+    Invariants invariants;
+    invariants.least_edge_m = least_edges_m_.at(static_cast<std::size_t>(scale) - 1);
+    return invariants;
+  }
+
+ private:
+  const Plinth& plinth_;
+  std::vector<double> least_edges_m_;
+};
+
+/// What is carried out of a plan with so much work.
+Generalised carried_out(const Line& line, const Plan& plan, Work& work) {
+  RedrawContext context = line.context();
+  context.work = &work;
+  Generalised done = carry_out(context, plan);
+  CHECK(is_closed(done.solid));
+  return done;
+}
+
+std::ptrdiff_t without_work(const Generalised& done) {
+  return std::ranges::count(done.refused, Code::E502, &RefusedStep::code);
+}
 
 }  // namespace
 
@@ -206,17 +241,9 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("in a series a piece of a plinth stays as well, and what went before stays gone") {
     const Plinth plinth(block_on_a_plinth());
-    const Line& line = plinth.line;
-    SeriesInput input{line.building(), line.labelled,       line.solid, line.segmentation,
-                      line.table(),    line.interpretation, {},         {}};
-    const PlanAt plan_at = [&](double) { return plinth.plan; };
     const auto levels_with = [&](std::vector<double> least_edges_m) {
-      input.invariants_at = [least_edges_m](double scale) {
-        Invariants invariants;
-        invariants.least_edge_m = least_edges_m.at(static_cast<std::size_t>(scale) - 1);
-        return invariants;
-      };
-      auto levels = series_levels(input, {1, 2}, plan_at);
+      auto levels = series_levels(plinth.line.context(),
+                                  PlinthOrder(plinth, std::move(least_edges_m)), {1, 2});
       REQUIRE(levels.value);
       return std::move(*levels.value);
     };
@@ -228,8 +255,7 @@ TEST_SUITE("generalise") {
   }
 
   TEST_CASE("a solid of which nothing is left stays as it is") {
-    const Checked<Generalised> out =
-        generalise({}, {}, FeatureTable("house", 0), {}, Plan{500, {}, {}});
+    const Checked<Generalised> out = generalise(bare_context({}, {}), Plan{500, {}, {}});
     CHECK(!out.value);
     REQUIRE(out.issues.size() == 1);
     CHECK(out.issues[0].code == Code::G402);
@@ -241,20 +267,15 @@ TEST_SUITE("generalise") {
   TEST_CASE("drawing counts as work and stops when none is left") {
     const Line line = line_of_sample("house");
     const RuleBase cartographic = *load_pack_file("cartographic").value;
-    Plan omitted =
-        plan(cartographic, line.table(), line.description.graph, line.interpretation, 2500);
+    Plan omitted = line.plan_at(2500, cartographic);
     const Plan drawn = omitted;
     for (Step& step : omitted.steps) step = {step.feature, "omit", step.rule};
     const auto fewest = [&](const Plan& asked) {
       std::int64_t enough = 1;
       for (bool is_enough = false; !is_enough; enough += enough / 8 + 1) {
         Work work(enough);
-        Invariants invariants;
-        invariants.work = &work;
-        const CarriedOut done = carry_out(line.solid, line.segmentation, asked, {}, invariants);
-        CHECK(is_closed(done.solid));
+        const auto stays = without_work(carried_out(line, asked, work));
         is_enough = !work.is_used_up();
-        const auto stays = std::ranges::count(done.refused, Code::E502, &CarriedOut::Refused::code);
         CHECK((is_enough ? stays == 0 : stays > 0));
       }
       return enough;
@@ -264,17 +285,13 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("what there is no work left for stays and says so") {
     const Line line = line_of_sample("house");
-    const Plan asked =
-        plan(residential(), line.table(), line.description.graph, line.interpretation, 2500);
+    const Plan asked = line.plan_at(2500);
     REQUIRE(!asked.steps.empty());
     for (const std::int64_t budget : {1, 10'000, 100'000, 1'000'000, 40'000'000}) {
       CAPTURE(budget);
       Work work(budget);
-      Invariants invariants;
-      invariants.work = &work;
-      const CarriedOut done = carry_out(line.solid, line.segmentation, asked, {}, invariants);
-      CHECK(is_closed(done.solid));
-      const auto stays = std::ranges::count(done.refused, Code::E502, &CarriedOut::Refused::code);
+      const Generalised done = carried_out(line, asked, work);
+      const auto stays = without_work(done);
       CHECK((stays == 0 || work.is_used_up()));
       if (budget == 1) {
         CHECK(stays == std::ssize(asked.steps));

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -46,6 +47,15 @@ std::vector<FeatureId> Line::features(const std::string& label) const {
   for (const Verdict& verdict : interpretation.verdicts)
     if (verdict.label == label) found.push_back(verdict.feature);
   return found;
+}
+
+RedrawContext Line::context(Invariants invariants) const {
+  return {building(), labelled,       solid, segmentation,
+          table(),    interpretation, {},    std::move(invariants)};
+}
+
+Plan Line::plan_at(double scale, const RuleBase& pack) const {
+  return plan(pack, table(), description.graph, interpretation, scale);
 }
 
 const RuleBase& residential() {
@@ -93,14 +103,12 @@ const std::vector<std::string>& samples() {
 Coarser generalised(const Line& line, double scale) {
   Coarser out;
   out.scale = scale;
-  const auto& [table, graph, issues] = line.description;
-  out.plan = plan(residential(), table, graph, line.interpretation, scale);
-  auto checked = generalise(line.solid, line.segmentation, table, line.interpretation, out.plan);
+  out.plan = line.plan_at(scale);
+  auto checked = generalise(line.context(), out.plan);
   out.issues = std::move(checked.issues);
   REQUIRE(checked.value);
   out.generalised = *checked.value;
-  out.redrawn = redraw(line.building(), line.labelled, line.segmentation, table,
-                       line.interpretation, std::move(*checked.value));
+  out.redrawn = redraw(line.context(), std::move(*checked.value));
   return out;
 }
 

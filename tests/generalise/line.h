@@ -12,6 +12,9 @@
 
 namespace oriel::test {
 
+/// The default pack.
+const RuleBase& residential();
+
 /// A building that came down the whole line with the default pack, as the command runs it.
 struct Line {
   Document document;
@@ -28,10 +31,11 @@ struct Line {
   }
   /// Features with that label.
   [[nodiscard]] std::vector<FeatureId> features(const std::string& label) const;
+  /// To redraw it. Refers to the line.
+  [[nodiscard]] RedrawContext context(Invariants invariants = {}) const;
+  /// What a pack asks of it at 1 : scale.
+  [[nodiscard]] Plan plan_at(double scale, const RuleBase& pack = residential()) const;
 };
-
-/// The default pack.
-const RuleBase& residential();
 
 /// The first building of the file; it must be fit for the line.
 Line line_of_file(const std::string& path);

@@ -18,11 +18,14 @@ using nlohmann::json;
 
 namespace {
 
+Plan plan_of(const Line& line, const Profile& profile) {
+  return plan_by_profile({}, profile, residential(), line.segmentation, line.table(),
+                         line.interpretation, std::nullopt);
+}
+
 /// How many features the level 2.0 takes off.
 std::size_t steps_at_lod2(const Line& line) {
-  return plan_by_profile({}, *load_profile_file("lod:2.0").value, residential(), line.segmentation,
-                         line.description.table, line.interpretation, std::nullopt)
-      .steps.size();
+  return plan_of(line, *load_profile_file("lod:2.0").value).steps.size();
 }
 
 /// The same of a house with one box on it; nothing of it has a label.
@@ -35,14 +38,10 @@ std::size_t steps_with(Vec3 from, Vec3 to) {
 
 Checked<Redrawn> product(const Line& line, const std::string& level) {
   const Profile profile = *load_profile_file("lod:" + level).value;
-  const auto& [table, graph, issues] = line.description;
-  const Plan plan = plan_by_profile({}, profile, residential(), line.segmentation, table,
-                                    line.interpretation, std::nullopt);
-  auto left = generalise(line.solid, line.segmentation, table, line.interpretation, plan);
+  auto left = generalise(line.context(), plan_of(line, profile));
   REQUIRE(left.value);
   Work work(kWorkBudget);
-  return to_lod(line.building(), line.labelled, line.segmentation, table, line.interpretation,
-                profile, std::move(*left.value), {}, work);
+  return to_lod(line.context(), profile, std::move(*left.value), work);
 }
 
 }  // namespace
@@ -217,8 +216,7 @@ TEST_SUITE("generalise") {
     Plan plan;
     for (int i = 0; i < 3; ++i) {
       if (!add_fine_owners(left, line.segmentation, line.table(), 0.3, 1.5, "r", plan)) break;
-      left =
-          *generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan).value;
+      left = *generalise(line.context(), plan).value;
     }
     REQUIRE_FALSE(plan.steps.empty());
     for (const Step& step : plan.steps) {

@@ -15,7 +15,7 @@ namespace oriel::test {
 
 /// What a plan makes of a building; it must be closed.
 inline Generalised carried(const Line& line, const Plan& plan) {
-  auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+  auto out = generalise(line.context(), plan);
   REQUIRE(out.value);
   CHECK(is_closed(out.value->solid));
   return std::move(*out.value);

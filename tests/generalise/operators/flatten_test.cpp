@@ -1,3 +1,4 @@
+#include "generalise/carry_out.h"
 #include "generalise/generalise.h"
 #include "generalise/operators/operators.h"
 #include "interpret/plan/profile.h"
@@ -31,7 +32,7 @@ Flattened flattened(const BoxBody& body, const std::string& label = "") {
   const Plan plan =
       plan_by_profile({kScale, {}, {}}, *load_profile_file("map").value, residential(),
                       line.segmentation, line.table(), line.interpretation, kScale);
-  auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+  auto out = generalise(line.context(), plan);
   REQUIRE(out.value);
   CHECK(is_closed(out.value->solid));
   return {std::move(line), plan, std::move(*out.value)};
@@ -118,7 +119,7 @@ TEST_SUITE("generalise") {
     REQUIRE_FALSE(window.source_polygons.empty());
     line.segmentation.features.push_back(window);
     const Plan plan{kScale, {{{0}, "flatten", "test"}}, {}};
-    const CarriedOut out = carry_out(line.solid, line.segmentation, plan, {});
+    const Generalised out = carry_out(line.context(), plan);
     REQUIRE(out.refused.size() == 1);
     CHECK(out.refused[0].reason == "an outline on its wall or roof would not move along");
     CHECK(volume_m3(out.solid) == volume_m3(line.solid));

@@ -125,8 +125,7 @@ TEST_SUITE("generalise") {
     REQUIRE(plan.steps.size() == 1);
     Invariants fine;
     fine.least_edge_m = 0.125;  // longer than the sill overhangs
-    const auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation,
-                                plan, {}, fine);
+    const auto out = generalise(line.context(fine), plan);
     REQUIRE(out.value);
     CHECK(is_closed(out.value->solid));
     CHECK(out.issues.empty());
@@ -147,8 +146,7 @@ TEST_SUITE("generalise") {
     };
     std::erase_if(plan.steps[0].with, is_pilaster);
     std::erase_if(plan.steps[0].follows, is_pilaster);
-    const auto out =
-        generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+    const auto out = generalise(line.context(), plan);
     REQUIRE(out.value);
     CHECK(out.value->refused.empty());
     CHECK(out.value->removed.size() == 1);
@@ -183,8 +181,7 @@ TEST_SUITE("generalise") {
     Invariants invariants;
     invariants.limits.volume_pct = 0.07;   // of 480 m³: the window and the sill take 0.32 m³
     invariants.limits.overhang_pct = 0.1;  // of 80 m²: the sill reaches out by 0.15 m² more
-    const auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation,
-                                plan, {}, invariants);
+    const auto out = generalise(line.context(invariants), plan);
     REQUIRE(out.value);
     for (const auto& refused : out.value->refused) CHECK(refused.reason == "");
     CHECK(out.value->changed == std::vector{plan.steps[0].feature});

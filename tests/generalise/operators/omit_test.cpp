@@ -2,6 +2,7 @@
 #include "generalise/operators/operators.h"
 #include "generalise/removal/removal.h"
 #include "kernel/segment/complex/cell_complex.h"
+#include "tests/generalise/bare_context.h"
 #include "tests/generalise/line.h"
 #include "tests/support/changed.h"
 #include "tests/support/houses.h"
@@ -11,7 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -30,14 +31,25 @@ Plan omit_all(const Line& line) {
   return plan;
 }
 
-Remainder without_all(const Line& line) {
-  return omit(line.solid, line.segmentation, omit_all(line), {});
+Remainder without_all(const Line& line) { return omit(line.context(), omit_all(line)); }
+
+/// To judge what is left of a solid.
+RedrawContext judged(const Solid& solid, const Segmentation& segmentation,
+                     SolidJudge& judge = any_closed()) {
+  RedrawContext context = bare_context(solid, segmentation);
+  context.judge = &judge;
+  return context;
+}
+RedrawContext judged(const Segmented& s, SolidJudge& judge = any_closed()) {
+  return judged(s.solid, s.segmentation, judge);
 }
 
-Fitness any_solid_fitness(const Solid& solid) {
-  return is_closed(solid) ? Fitness::valid : Fitness::unfit;
+/// Nothing gone, and some features refused that cells may take off.
+Remainder refusing(const Segmented& s, const std::vector<FeatureId>& features) {
+  Remainder remainder{s.solid, {}, {}};
+  for (const FeatureId id : features) remainder.refused.push_back({id, "as a test"});
+  return remainder;
 }
-const SolidValidator any_solid{any_solid_fitness};
 
 /// All features gone, nothing refused, and the bare block left without a seam.
 void check_bare(const BoxBody& body, std::size_t features) {
@@ -89,7 +101,7 @@ TEST_SUITE("generalise") {
       if (line.segmentation.features[static_cast<std::size_t>(i)].sense == Sense::protrusion)
         plan.steps.push_back({FeatureId{i}, "omit", "test"});
     REQUIRE(plan.steps.size() == 1);
-    const Remainder rest = omit(line.solid, line.segmentation, plan, {});
+    const Remainder rest = omit(line.context(), plan);
     CHECK(rest.removed.size() == 2);
     CHECK(volume_m3(rest.solid) == doctest::Approx(480).epsilon(1e-9));
     CHECK(rest.solid.facets.size() == 6);
@@ -100,8 +112,7 @@ TEST_SUITE("generalise") {
         line_of(block().remove({2, 0, 1}, {3, 0.2, 2}).remove({5, 0, 1}, {6, 0.25, 2}).build());
     REQUIRE(line.segmentation.features.size() == 2);
     for (int i = 0; i < 2; ++i) {
-      const Remainder rest =
-          omit(line.solid, line.segmentation, Plan{1, {{FeatureId{i}, "omit", ""}}, {}}, {});
+      const Remainder rest = omit(line.context(), Plan{1, {{FeatureId{i}, "omit", ""}}, {}});
       const Feature& gone = line.segmentation.features[static_cast<std::size_t>(i)];
       CHECK(rest.removed == std::vector<FeatureId>{FeatureId{i}});
       CHECK(volume_m3(rest.solid) ==
@@ -163,8 +174,7 @@ TEST_SUITE("generalise") {
         const Feature& feature = s.segmentation.features[id.index()];
         const bool is_on_ground = feature.box.min.z <= box_of(s.solid).min.z;  // footprints stay
         if (feature.sense == Sense::cavity || !feature.node.is_valid() || is_on_ground) continue;
-        const Remainder rest =
-            remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, any_solid);
+        const Remainder rest = remove_cells(judged(s), refusing(s, {id}));
         if (!rest.refused.empty()) {  // the building would fall apart
           left_out += std::string(name) + " ";
           CHECK(rest.removed.empty());
@@ -191,8 +201,8 @@ TEST_SUITE("generalise") {
     std::size_t pieces = 0;
     for (const FeatureId id : all_features(s.segmentation)) {
       if (!s.segmentation.features[id.index()].parent.is_valid()) continue;
-      const Remainder rest = remove_cells(
-          s.solid, s.segmentation, remove_features(s.solid, s.segmentation, {id}), any_solid);
+      const Remainder rest =
+          remove_cells(judged(s), remove_features(s.solid, s.segmentation, {id}));
       CHECK(rest.refused.empty());
       CHECK(volume_m3(rest.solid) ==
             doctest::Approx(volume_without(s, rest.removed)).epsilon(1e-9));
@@ -210,8 +220,7 @@ TEST_SUITE("generalise") {
         for (const FeatureId id : all_features(s.segmentation)) {
           const Feature& feature = s.segmentation.features[id.index()];
           if (!feature.node.is_valid() || feature.parent.is_valid()) continue;
-          const Remainder rest =
-              remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, any_solid);
+          const Remainder rest = remove_cells(judged(s), refusing(s, {id}));
           CHECK(is_closed(rest.solid));
           gone += rest.refused.empty() ? 1 : 0;
           // A shaft under its head is a part of the building, and the air beside a roof is no hole.
@@ -235,17 +244,16 @@ TEST_SUITE("generalise") {
         body.add({x + 1.2, 3.2, 6}, {x + 1.8, 3.8, 7}).add({x + 1, 3, 7}, {x + 2, 4, 7.2});
       }
       const Segmented s = segmented(body.build());
-      std::vector<Refusal> shafts;
+      std::vector<FeatureId> shafts;
       for (const FeatureId id : all_features(s.segmentation)) {
         const Box& box = s.segmentation.features[id.index()].box;
-        if (box.max.z < 7.1) shafts.push_back({id, "as a test"});
+        if (box.max.z < 7.1) shafts.push_back(id);
       }
       CHECK(std::ssize(shafts) == chimneys);
       Work work;
-      SolidValidator validator = any_solid;
-      validator.work = &work;
-      const Remainder rest =
-          remove_cells(s.solid, s.segmentation, {s.solid, {}, shafts}, validator);
+      RedrawContext context = judged(s);
+      context.work = &work;
+      const Remainder rest = remove_cells(context, refusing(s, shafts));
       CHECK(std::ssize(rest.refused) == std::ssize(shafts));
       for (const Refusal& refusal : rest.refused) CHECK(refusal.code == Code::G411);
       steps.push_back(work.done());
@@ -253,19 +261,18 @@ TEST_SUITE("generalise") {
     CHECK(steps[1] < 5 * steps[0]);  // four times as many; it was nine times
   }
 
-  TEST_CASE("what was cut is put together anew if a thorough validator finds it unfit") {
+  TEST_CASE("what was cut is put together anew if all is judged and it is unfit") {
     const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
     const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
-    for (const bool is_thorough : {false, true}) {
-      int judged = 0;
-      const SolidValidator validator{
-          [&](const Solid&) { return ++judged == 1 ? Fitness::unfit : Fitness::valid; },
-          {},
-          is_thorough};
+    for (const bool judges_all : {false, true}) {
+      int asked = 0;
+      JudgeBy judge([&](const Solid&) { return ++asked == 1 ? Fitness::unfit : Fitness::valid; });
+      RedrawContext context = judged(s, judge);
+      context.judges_all = judges_all;
       const Remainder cut = remove_features(s.solid, s.segmentation, {id});
       REQUIRE(cut.refused.empty());
-      const Remainder rest = remove_cells(s.solid, s.segmentation, cut, validator);
-      CHECK(judged == (is_thorough ? 2 : 0));
+      const Remainder rest = remove_cells(context, cut);
+      CHECK(asked == (judges_all ? 2 : 0));
       CHECK(rest.removed == std::vector{id});
       CHECK(rest.refused.empty());
       CHECK(volume_m3(rest.solid) == doctest::Approx(480).epsilon(1e-9));
@@ -277,35 +284,29 @@ TEST_SUITE("generalise") {
     const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
     const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
     // The first result that it sees is not valid, but neither was the building.
-    int judged = 0;
-    const SolidValidator validator{[&](const Solid& solid) {
-      return solid.facets.size() == 6 && ++judged == 1 ? Fitness::as_it_came : Fitness::valid;
-    }};
-    const Remainder rest =
-        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, validator);
-    CHECK(judged == 2);
-    CHECK(rest.refused.empty());
+    int asked = 0;
+    JudgeBy judge([&](const Solid& solid) {
+      return solid.facets.size() == 6 && ++asked == 1 ? Fitness::as_it_came : Fitness::valid;
+    });
+    CHECK(remove_cells(judged(s, judge), refusing(s, {id})).refused.empty());
+    CHECK(asked == 2);
     // Where nothing is valid it goes all the same.
-    const SolidValidator never{[&](const Solid& solid) {
+    JudgeBy never([](const Solid& solid) {
       return solid.facets.size() == 6 ? Fitness::as_it_came : Fitness::valid;
-    }};
-    CHECK(remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, never)
-              .refused.empty());
+    });
+    CHECK(remove_cells(judged(s, never), refusing(s, {id})).refused.empty());
   }
 
-  TEST_CASE("no cells go by which the validator finds a violation") {
+  TEST_CASE("no cells go by which something changes that must not") {
     const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
     const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
-    SolidValidator validator = any_solid;
-    validator.violation_of = [](const Solid& solid) -> std::optional<Violation> {
-      if (solid.facets.size() > 6) return std::nullopt;
-      return Violation{Code::G405, "the block would go"};
-    };
-    const Remainder rest =
-        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, validator);
+    RedrawContext context = judged(s);
+    context.invariants.limits.volume_pct = 0.1;
+    context.before = measures_of(s.solid);
+    const Remainder rest = remove_cells(context, refusing(s, {id}));
     REQUIRE(rest.refused.size() == 1);
     CHECK(rest.refused[0].code == Code::G405);
-    CHECK(rest.refused[0].reason == "the block would go");
+    CHECK(rest.refused[0].reason == "the volume would change by 0.208 %, more than 0.1 %");
     CHECK(rest.removed.empty());
   }
 
@@ -329,8 +330,7 @@ TEST_SUITE("generalise") {
       const FeatureId id{static_cast<int>(segmentation.features.size()) - 1};
       // Nothing else is asked of the features that cuts find.
       for (Feature& feature : segmentation.features) feature.source_polygons.clear();
-      const Remainder rest =
-          fill_rings(segmentation, {s.solid, {}, {{id, "as a test"}}}, any_solid);
+      const Remainder rest = fill_rings(judged(s.solid, segmentation), refusing(s, {id}));
       CHECK(is_closed(rest.solid));
       const bool is_passage = depth_m > 7;
       CHECK(rest.refused.size() == (is_passage ? 1U : 0U));
@@ -341,19 +341,18 @@ TEST_SUITE("generalise") {
   }
 
   TEST_CASE("what carries what stays is a part of the building unless its class was to go") {
-    const Line line = line_of(chimney_with_head());
-    Interpretation bare = line.interpretation;
+    Line line = line_of(chimney_with_head());
+    Interpretation& bare = line.interpretation;
     for (Verdict& verdict : bare.verdicts) verdict.label.clear();
+    RedrawContext context = line.context();
+    context.judge = &any_closed();
     std::size_t carriers = 0;
     for (const FeatureId id : all_features(line.segmentation)) {
       const Plan plan{1000, {{id, "omit", "test"}}, {}};
-      Invariants invariants;
-      invariants.validator = any_solid;
-      const auto done = generalise(line.solid, line.segmentation, line.table(), bare, plan,
-                                   SegmentOptions{}, invariants);
+      const auto done = generalise(context, plan);
       REQUIRE(done.value);
       if (done.value->refused.empty()) continue;
-      const CarriedOut::Refused& refused = done.value->refused[0];
+      const RefusedStep& refused = done.value->refused[0];
       CHECK(refused.code == Code::G411);
       CHECK(done.issues[0].severity == Severity::note);
       CHECK(is_part(refused, plan, bare));
@@ -389,8 +388,7 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("steps of other operators are not omissions") {
     const Line line = line_of(block().remove({2, 0, 1}, {3, 0.2, 2}).build());
-    const Remainder rest =
-        omit(line.solid, line.segmentation, Plan{1, {{FeatureId{0}, "enlarge", ""}}, {}}, {});
+    const Remainder rest = omit(line.context(), Plan{1, {{FeatureId{0}, "enlarge", ""}}, {}});
     CHECK(rest.removed.empty());
     CHECK(rest.solid.facets.size() == line.solid.facets.size());
   }

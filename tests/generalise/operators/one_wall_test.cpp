@@ -113,8 +113,7 @@ TEST_SUITE("generalise") {
     std::ranges::sort(plan.steps, {}, &Step::feature);
     Invariants invariants;
     invariants.limits.volume_pct = 0.02;  // of 480 m³: less than the slab, more than the growth
-    const auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation,
-                                plan, {}, invariants);
+    const auto out = generalise(line.context(invariants), plan);
     REQUIRE(out.value);
     CHECK(out.value->removed.empty());
     CHECK(out.value->changed == std::vector{window});

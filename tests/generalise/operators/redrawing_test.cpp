@@ -1,6 +1,5 @@
 #include "generalise/generalise.h"
 #include "generalise/operators/operators.h"
-#include "interpret/plan/plan.h"
 #include "io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/generalise/operators/drawn_wall.h"
@@ -143,8 +142,7 @@ TEST_SUITE("generalise") {
     const auto is_window = [](const Feature& f) { return f.sense == Sense::hole; };
     const Plan plan = plan_for(line, step("aggregate", {{"gap", 0.1}}), is_window);
     REQUIRE(plan.steps.size() == 6);
-    const auto out =
-        generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+    const auto out = generalise(line.context(), plan);
     REQUIRE(out.value);
     CHECK(out.issues.empty());
     CHECK(out.value->changed.size() == 2);
@@ -265,8 +263,7 @@ TEST_SUITE("generalise") {
   TEST_CASE("what is as its operator wants it is kept and not refused") {
     const Line line = line_of(facade().build());
     const Plan plan = plan_for(line, step("enlarge", {{"to", 0.5}}), is_high);
-    const auto out =
-        generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+    const auto out = generalise(line.context(), plan);
     REQUIRE(out.value);
     CHECK(out.issues.empty());
     CHECK(out.value->changed.empty());
@@ -289,8 +286,7 @@ TEST_SUITE("generalise") {
     CHECK(out.changed.size() == 1);
     CHECK(out.removed.empty());
     CHECK(volume_m3(out.solid) == volume_m3(line.solid));
-    const Redrawn redrawn = redraw(line.building(), line.labelled, line.segmentation, line.table(),
-                                   line.interpretation, std::move(out));
+    const Redrawn redrawn = redraw(line.context(), std::move(out));
     CHECK(redrawn.labelled.installations.empty());
   }
 
@@ -416,8 +412,7 @@ TEST_SUITE("generalise") {
       for (const Step& like : operators) {
         auto out = carried(line, plan_for(line, like, is_any));
         changed += out.changed.size();
-        const Redrawn redrawn = redraw(line.building(), line.labelled, line.segmentation,
-                                       line.table(), line.interpretation, std::move(out));
+        const Redrawn redrawn = redraw(line.context(), std::move(out));
         const Line again = line_of_text(
             write_cityjson(line.document, {redrawn.labelled}, {.removed = redrawn.removed_ids}));
         CHECK(is_closed(again.solid));

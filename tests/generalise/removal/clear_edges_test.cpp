@@ -1,12 +1,11 @@
 #include "generalise/removal/clear_edges.h"
 
+#include "generalise/invariants/fineness.h"
+#include "tests/generalise/bare_context.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solidified.h"
 
-#include <functional>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -18,10 +17,10 @@ namespace {
 
 constexpr double kLeast_m = 0.5;
 
-/// A block of 10 x 8 x 6 m of which two edges are cut off by 0.25 m: four edges of 0.35 m.
-Solid chamfered() {
-  const std::vector<Vec3> foot{{0.25, 0, 0}, {9.75, 0, 0}, {10, 0.25, 0},
-                               {10, 8, 0},   {0, 8, 0},    {0, 0.25, 0}};
+/// A block of 10 x 8 x 6 m of which two edges are cut off, the polygons 3 and 7.
+Solid chamfered(double by_m) {
+  const std::vector<Vec3> foot{{by_m, 0, 0}, {10 - by_m, 0, 0}, {10, by_m, 0},
+                               {10, 8, 0},   {0, 8, 0},         {0, by_m, 0}};
   constexpr Vec3 kUp{0, 0, 6};
   std::vector<std::vector<Vec3>> polygons{{foot.rbegin(), foot.rend()}, {}};
   for (std::size_t i = 0; i < foot.size(); ++i) {
@@ -32,42 +31,37 @@ Solid chamfered() {
   return solid_of(building_of(polygons));
 }
 
-ClearOrder order() {
-  ClearOrder order;
-  order.reach_m = kLeast_m;
-  order.short_edges_of = [](const Solid& solid) {
-    return short_edges(solid, Segmentation{}, {}, kLeast_m);
-  };
-  order.keeps_facet = [](const Solid&, const Facet&) { return std::nullopt; };
-  return order;
-}
+/// The block had its edges cut off by 0.5 m, and is drawn with 0.25 m: four new edges of 0.35 m.
+struct Drawn {
+  Solid before = chamfered(0.5), drawn = chamfered(0.25);
+  Segmentation segmentation{};
+  RedrawContext context = bare_context(before, segmentation);
 
-SolidValidator judging(std::function<Fitness(const Solid&)> fitness_of) {
-  SolidValidator validator;
-  validator.fitness_of = std::move(fitness_of);
-  return validator;
-}
+  explicit Drawn(SolidJudge* judge) {
+    context.invariants.least_edge_m = kLeast_m;
+    context.judge = judge;
+  }
+  [[nodiscard]] Generalised cleared() const { return clear_edges(context, {drawn, {}}); }
+};
 
 /// All four edges are left as they were, with one reason, which is returned.
-std::string reason_of(const ClearOrder& order, const SolidValidator& validator) {
-  const Cleared cleared = clear_edges(chamfered(), order, validator);
+std::string reason_of(const Drawn& drawn) {
+  const Generalised cleared = drawn.cleared();
   CHECK(cleared.solid.facets.size() == 8);
-  REQUIRE(cleared.left.size() == 4);
-  for (const UnclearedEdge& edge : cleared.left) {
+  REQUIRE(cleared.uncleared.size() == 4);
+  for (const UnclearedEdge& edge : cleared.uncleared) {
     CHECK(length(edge.to - edge.from) < kLeast_m);
-    CHECK(edge.reason == cleared.left[0].reason);
+    CHECK(edge.reason == cleared.uncleared[0].reason);
   }
-  return cleared.left[0].reason;
+  return cleared.uncleared[0].reason;
 }
-
-const auto kAlwaysValid = [](const Solid&) { return Fitness::valid; };
 
 }  // namespace
 
 TEST_SUITE("generalise") {
   TEST_CASE("edges that are too short are cleared by dropping the narrow facets at them") {
-    const Cleared cleared = clear_edges(chamfered(), order(), judging(kAlwaysValid));
-    CHECK(cleared.left.empty());
+    const Generalised cleared = Drawn(&any_closed()).cleared();
+    CHECK(cleared.uncleared.empty());
     CHECK(is_closed(cleared.solid));
     CHECK(cleared.solid.facets.size() == 6);
     CHECK(volume_m3(cleared.solid) == doctest::Approx(480).epsilon(1e-9));
@@ -75,45 +69,60 @@ TEST_SUITE("generalise") {
   }
 
   TEST_CASE("what is cleared has nothing to clear") {
-    const Cleared once = clear_edges(chamfered(), order(), judging(kAlwaysValid));
-    const Cleared twice = clear_edges(once.solid, order(), judging(kAlwaysValid));
-    CHECK(twice.solid.facets.size() == once.solid.facets.size());
-    CHECK(twice.left.empty());
+    Drawn drawn(&any_closed());
+    drawn.drawn = drawn.cleared().solid;
+    const Generalised twice = drawn.cleared();
+    CHECK(twice.solid.facets.size() == drawn.drawn.facets.size());
+    CHECK(twice.uncleared.empty());
+  }
+
+  TEST_CASE("edges that the building came with are not cleared") {
+    Drawn drawn(&any_closed());
+    drawn.before = drawn.drawn;
+    const Generalised cleared = drawn.cleared();
+    CHECK(cleared.solid.facets.size() == 8);
+    CHECK(cleared.uncleared.empty());
   }
 
   TEST_CASE("a facet does not go if the building were less fit without it") {
-    const auto eight_facets = [](const Solid& solid) {
+    JudgeBy eight_facets([](const Solid& solid) {
       return solid.facets.size() == 8 ? Fitness::valid : Fitness::as_it_came;
-    };
-    CHECK(reason_of(order(), judging(eight_facets)) ==
+    });
+    CHECK(reason_of(Drawn(&eight_facets)) ==
           "cannot remove the narrow facet: the building would not be valid");
   }
 
   TEST_CASE("of two facets the one goes that leaves a fit building") {
-    const auto one_each = [](const Solid& solid) {
+    JudgeBy one_each([](const Solid& solid) {
       return solid.facets.size() >= 7 ? Fitness::valid : Fitness::unfit;
-    };
-    const Cleared cleared = clear_edges(chamfered(), order(), judging(one_each));
+    });
+    const Generalised cleared = Drawn(&one_each).cleared();
     CHECK(cleared.solid.facets.size() == 7);
-    CHECK(cleared.left.size() == 2);
+    CHECK(cleared.uncleared.size() == 2);
   }
 
   TEST_CASE("a facet does not go if what must not change did") {
-    SolidValidator validator = judging(kAlwaysValid);
-    validator.violation_of = [](const Solid&) {
-      return Violation{Code::G405, "the footprint would change by 0.08 %"};
-    };
-    CHECK(reason_of(order(), validator) ==
-          "cannot remove the narrow facet: the footprint would change by 0.08 %");
+    Drawn drawn(&any_closed());
+    drawn.context.before = measures_of(drawn.before);
+    drawn.context.invariants.limits.footprint_pct = 0.25;  // as it is drawn it changed by 0.235 %
+    CHECK(reason_of(drawn) ==
+          "cannot remove the narrow facet: the footprint would change by 0.274 %, more than 0.25 "
+          "%");
   }
 
-  TEST_CASE("a facet that has to stay stays, and without a validator all do") {
-    ClearOrder keeping = order();
-    keeping.keeps_facet = [](const Solid&, const Facet&) {
-      return "it is of a feature that stays";
-    };
-    CHECK(reason_of(keeping, judging(kAlwaysValid)) ==
-          "cannot remove the narrow facet: it is of a feature that stays");
-    CHECK(reason_of(order(), {}) == "whether the building would still be valid was not checked");
+  TEST_CASE("a facet of a feature that stays is not dropped") {
+    Drawn drawn(&any_closed());
+    Feature corners;
+    corners.source_polygons = {3, 7};
+    drawn.segmentation.features = {corners};
+    CHECK(reason_of(drawn) == "cannot remove the narrow facet: it is of a feature that stays");
+  }
+
+  TEST_CASE("no facet is dropped without a judge or work") {
+    CHECK(reason_of(Drawn(nullptr)) == "whether the building would still be valid was not checked");
+    Drawn drawn(&any_closed());
+    Work work(1);
+    drawn.context.work = &work;
+    CHECK(reason_of(drawn) == std::string("cannot remove the narrow facet: ") + kNoWorkLeft);
   }
 }

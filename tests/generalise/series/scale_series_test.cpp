@@ -9,6 +9,7 @@
 #include "kernel/validate/validate.h"
 #include "tests/generalise/line.h"
 #include "tests/support/generated.h"
+#include "tests/support/segmented.h"
 #include "tests/support/shapes.h"
 #include "tests/support/shared.h"
 
@@ -16,8 +17,10 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -29,28 +32,61 @@ namespace {
 
 const std::vector<double> kSeriesScales{500, 1000, 2500, 5000, 10000};
 
-SeriesInput input_of(const Line& line) {
-  return {line.building(), line.labelled,       line.solid, line.segmentation,
-          line.table(),    line.interpretation, {},         {}};
+/// What the default pack asks for.
+class PackOrder : public SeriesOrder {
+ public:
+  explicit PackOrder(const Line& line) : line_(line) {}
+  [[nodiscard]] Plan plan_at(double scale) const override { return line_.plan_at(scale); }
+
+ private:
+  const Line& line_;
+};
+
+/// The same, but no solid may have fewer facets.
+class LeastFacets : public PackOrder {
+ public:
+  LeastFacets(const Line& line, std::size_t least) : PackOrder(line), least_(least) {}
+  [[nodiscard]] std::optional<Issue> fault_of(const Solid& solid) const override {
+    if (solid.facets.size() >= least_) return std::nullopt;
+    return building_issue(Severity::error, Code::G410, "house", "too few");
+  }
+
+ private:
+  std::size_t least_;
+};
+
+/// Each step from its scale on.
+class StepsFrom : public SeriesOrder {
+ public:
+  void add(double scale, Step step) { steps_.emplace_back(scale, std::move(step)); }
+  [[nodiscard]] Plan plan_at(double scale) const override {
+    Plan plan{scale, {}, {}};
+    for (const auto& [from, step] : steps_)
+      if (scale >= from) plan.steps.push_back(step);
+    return plan;
+  }
+
+ private:
+  std::vector<std::pair<double, Step>> steps_;
+};
+
+Checked<std::vector<SeriesLevel>> levels_of(const Line& line, const SeriesOrder& order) {
+  return series_levels(line.context(), order, kSeriesScales);
 }
 
-PlanAt plan_of(const Line& line) {
-  return [&](double scale) {
-    return plan(residential(), line.table(), line.description.graph, line.interpretation, scale);
-  };
-}
-
-ScaleSeries series_of(const Line& line, const SeriesInput& input) {
-  const PlanAt plan_at = plan_of(line);
-  const auto levels = series_levels(input, kSeriesScales, plan_at);
+ScaleSeries series_of(const Line& line, const SeriesOrder& order,
+                      const std::vector<double>& bounds = plan_bounds(residential()),
+                      Work* work = nullptr) {
+  RedrawContext context = line.context();
+  context.work = work;
+  const auto levels = series_levels(context, order, kSeriesScales);
   REQUIRE(levels.value);
   const WrittenGrid grid(line.document);
-  return scale_series(input, *levels.value,
-                      FiringScales(kSeriesScales, plan_bounds(residential()), plan_at),
+  return scale_series(context, order, *levels.value, FiringScales(kSeriesScales, bounds, order),
                       [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
 }
 
-ScaleSeries series_of(const Line& line) { return series_of(line, input_of(line)); }
+ScaleSeries series_of(const Line& line) { return series_of(line, PackOrder(line)); }
 
 /// Every prefix is a valid closed solid; all the way back gives the same states.
 void check_both_ways(const Line& line, const ScaleSeries& series) {
@@ -108,7 +144,7 @@ TEST_SUITE("generalise") {
   TEST_CASE("a series of levels only has the same levels and goes down and up") {
     const Line line = line_of(generated({}, 1).building);
     const WrittenGrid grid(line.document);
-    const auto levels = series_levels(input_of(line), kSeriesScales, plan_of(line));
+    const auto levels = levels_of(line, PackOrder(line));
     REQUIRE(levels.value);
     const ScaleSeries only = level_series(
         *levels.value, [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
@@ -140,28 +176,17 @@ TEST_SUITE("generalise") {
                                   .remove({3.2, 0, 1}, {4.2, 0.2, 2})
                                   .remove({5.8, 0, 1}, {6.8, 0.2, 2})
                                   .build());
-    std::vector<FeatureId> openings;
-    for (int i = 0; i < std::ssize(line.segmentation.features); ++i) openings.push_back({i});
-    const auto shared = std::make_shared<const std::vector<FeatureId>>(openings);
-    const PlanAt plan_at = [&](double scale) {
-      Plan plan{scale, {}, {}};
-      for (const FeatureId id : openings) {
-        const bool is_door = line.segmentation.features[id.index()].box.min.z == 0;
-        if (is_door && scale >= 1000)
-          plan.steps.push_back(
-              {id, "enlarge", "door", {{"to", 2}, {"gap", 0.3}}, {{"anchor", "sill"}}, {}, shared});
-        else if (!is_door && scale >= 5000)
-          plan.steps.push_back({id, "omit", "window"});
-      }
-      return plan;
-    };
-    const SeriesInput input = input_of(line);
-    const auto levels = series_levels(input, kSeriesScales, plan_at);
-    REQUIRE(levels.value);
-    const WrittenGrid grid(line.document);
-    const ScaleSeries series =
-        scale_series(input, *levels.value, FiringScales(kSeriesScales, {1000, 5000}, plan_at),
-                     [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
+    const auto openings =
+        std::make_shared<const std::vector<FeatureId>>(all_features(line.segmentation));
+    StepsFrom order;
+    for (const FeatureId id : *openings)
+      if (line.segmentation.features[id.index()].box.min.z == 0)
+        order.add(
+            1000,
+            {id, "enlarge", "door", {{"to", 2}, {"gap", 0.3}}, {{"anchor", "sill"}}, {}, openings});
+      else
+        order.add(5000, {id, "omit", "window"});
+    const ScaleSeries series = series_of(line, order, {1000, 5000});
     check_both_ways(line, series);
     REQUIRE(series.operations.size() == 3);
     CHECK(series.operations[0].operation == "enlarge");
@@ -192,19 +217,15 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("a level that must not be written stays as the one before and is told") {
     const Line line = line_of_sample("house");
-    const auto free = series_levels(input_of(line), kSeriesScales, plan_of(line));
+    const auto free = levels_of(line, PackOrder(line));
     REQUIRE(free.value);
     const auto facets_at = [](const SeriesLevel& level) {
       return level.redrawn.labelled.geometry->facets.size();
     };
     const std::size_t least = facets_at(free.value->at(2)) - 1;
     CHECK(facets_at(free.value->at(3)) < least);
-    SeriesInput input = input_of(line);
-    input.fault_of = [&](const Solid& solid) -> std::optional<Issue> {
-      if (solid.facets.size() >= least) return std::nullopt;
-      return building_issue(Severity::error, Code::G410, "house", "too few");
-    };
-    const auto levels = series_levels(input, kSeriesScales, plan_of(line));
+    const LeastFacets order(line, least);
+    const auto levels = levels_of(line, order);
     REQUIRE(levels.value);
     for (const std::size_t i : {2, 3, 4, 5}) {
       CHECK(facets_at(levels.value->at(i)) == facets_at(free.value->at(2)));
@@ -212,31 +233,29 @@ TEST_SUITE("generalise") {
     }
     CHECK(std::ranges::count(levels.issues, Code::G410, &Issue::code) == 3);
     CHECK_FALSE(has_errors(levels.issues));
-    check_both_ways(line, series_of(line, input));
-    const ScaleSeries series = series_of(line, input);
+    const ScaleSeries series = series_of(line, order);
+    check_both_ways(line, series);
     CHECK(state_at(series, 1000) == state_at(series, 10000));
     CHECK_FALSE(state_at(series, 1) == state_at(series, 1000));
   }
 
   TEST_CASE("a building that must not be written as it came has no series") {
     const Line line = line_of_sample("house");
-    SeriesInput input = input_of(line);
-    input.fault_of = [](const Solid&) {
-      return building_issue(Severity::error, Code::G410, "house", "no");
-    };
-    const auto levels = series_levels(input, kSeriesScales, plan_of(line));
+    const auto levels = levels_of(line, LeastFacets(line, line.solid.facets.size() + 1));
     CHECK_FALSE(levels.value);
     CHECK(has_errors(levels.issues));
   }
 
-  TEST_CASE("levels and the states between are finished as the input asks") {
-    const Line line = line_of_sample("house");
-    SeriesInput input = input_of(line);
-    input.finish = [](LabelledBuilding& labelled) {
-      for (SemanticSurface& surface : labelled.surfaces)
-        surface.members.emplace_back("finished", true);
+  TEST_CASE("levels and the states between are finished as the order asks") {
+    struct Finished : PackOrder {
+      using PackOrder::PackOrder;
+      void finish(LabelledBuilding& level) const override {
+        for (SemanticSurface& surface : level.surfaces)
+          surface.members.emplace_back("finished", true);
+      }
     };
-    const ScaleSeries series = series_of(line, input);
+    const Line line = line_of_sample("house");
+    const ScaleSeries series = series_of(line, Finished(line));
     check_both_ways(line, series);
     LevelState state = series.finest;
     for (const SeriesOperation& operation : series.operations) {
@@ -291,8 +310,7 @@ TEST_SUITE("generalise") {
 
   TEST_CASE("a body that is there twice has no state") {
     const Line line = line_of_sample("block");
-    LabelledBuilding twice =
-        series_levels(input_of(line), {500}, plan_of(line)).value->at(0).redrawn.labelled;
+    LabelledBuilding twice = levels_of(line, PackOrder(line)).value->at(0).redrawn.labelled;
     const auto place = [](Vec3 p) {
       return MicrometrePoint{std::llround(1e6 * p.x), std::llround(1e6 * p.y),
                              std::llround(1e6 * p.z)};
@@ -309,10 +327,10 @@ TEST_SUITE("generalise") {
       CAPTURE(budget);
       const Line line = line_of_sample("house");
       Work work(budget);
-      SeriesInput input = input_of(line);
-      input.work = &work;
-      check_both_ways(line, series_of(line, input));
-      if (budget == 1) CHECK(series_of(line, input).operations.empty());
+      const ScaleSeries series =
+          series_of(line, PackOrder(line), plan_bounds(residential()), &work);
+      check_both_ways(line, series);
+      if (budget == 1) CHECK(series.operations.empty());
     }
   }
 }

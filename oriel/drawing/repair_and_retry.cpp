@@ -1,8 +1,8 @@
-#include "oriel/pipeline/repair_and_retry.h"
+#include "oriel/drawing/repair_and_retry.h"
 
 #include "kernel/base/text/counted.h"
 #include "kernel/validate/validate.h"
-#include "oriel/pipeline/output_check.h"
+#include "oriel/drawing/output_check.h"
 #include "oriel/pipeline/pipeline.h"
 
 #include <array>

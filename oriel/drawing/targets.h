@@ -1,10 +1,11 @@
 #pragma once
 
-#include "generalise/invariants/invariants.h"
+#include "generalise/context.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"
 #include "io/document.h"
 #include "kernel/neighbours/neighbours.h"
+#include "oriel/options.h"
 #include "oriel/result.h"
 
 #include <functional>
@@ -14,6 +15,15 @@ namespace oriel {
 
 /// The least length that a target shows: the profile's, or its c, else 0.125 mm on the map.
 double least_edge_m(const Profile* profile, std::optional<double> scale);
+
+/// What a building is redrawn with of which label() said `result`, and annotate() `labelled`; all
+/// outlive it.
+RedrawContext redraw_context(const Building& building, const PipelineResult& result,
+                             const LabelledBuilding& labelled, const PipelineOptions& options = {});
+
+/// What the pack and the profile, which may be null, ask of a building at a target.
+Plan plan_at(const RuleBase& rules, const Profile* profile, const PipelineResult& result,
+             std::optional<double> scale);
 
 /// What must not change at a target, by the profile and the pack; without a judge and party walls.
 Invariants invariants_of(const Profile* profile, const RuleBase& rules,

@@ -1,4 +1,4 @@
-#include "oriel/pipeline/drawing_quality.h"
+#include "oriel/drawing/drawing_quality.h"
 
 #include "io/levels/written_grid.h"
 #include "kernel/base/index.h"

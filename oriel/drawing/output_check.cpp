@@ -1,4 +1,4 @@
-#include "oriel/pipeline/output_check.h"
+#include "oriel/drawing/output_check.h"
 
 #include "io/cityjson/cityjson_source.h"
 #include "io/levels/written_grid.h"
@@ -140,11 +140,13 @@ void part_written(const Document& document, const Building& building, LabelledBu
   }
 }
 
-SolidValidator counted(SolidValidator validator, Work& work) {
-  validator.fitness_of = [inner = std::move(validator.fitness_of), &work](const Solid& solid) {
-    return may_go_on(&work, solid, kStepsPerJudging) ? inner(solid) : Fitness::unfit;
-  };
-  return validator;
+Fitness WrittenJudge::fitness_of(const Solid& solid) {
+  if (is_given_up_ && is_given_up_()) work_ = Work(-1);
+  work_.add(kStepsPerJudging * corners_of(solid));
+  if (work_.is_used_up()) return Fitness::unfit;
+  if (!check_output(document_, building_, solid)) return Fitness::valid;
+  if (!can_be_valid_) can_be_valid_ = can_be_valid(document_, building_, own_);
+  return *can_be_valid_ ? Fitness::unfit : Fitness::as_it_came;
 }
 
 Work drawing_work(std::int64_t budget) {
@@ -152,21 +154,9 @@ Work drawing_work(std::int64_t budget) {
   return Work(std::min(budget, most) + std::min(budget, most) / 2);
 }
 
-Issue not_all_drawn(const Building& building, const Work& work) {
-  return used_up(building.id, work.budget(), "generalising",
+Issue not_all_drawn(const Building& building, std::int64_t budget) {
+  return used_up(building.id, budget, "generalising",
                  "what was not carried out by then stays unchanged");
-}
-
-SolidValidator judge_as_written(const Document& document, const Building& building,
-                                const Solid& own, bool is_thorough) {
-  std::optional<bool> may_be;
-  return {[&document, &building, &own, may_be](const Solid& solid) mutable {
-            if (!check_output(document, building, solid)) return Fitness::valid;
-            if (!may_be) may_be = can_be_valid(document, building, own);
-            return *may_be ? Fitness::unfit : Fitness::as_it_came;
-          },
-          {},
-          is_thorough};
 }
 
 }  // namespace oriel

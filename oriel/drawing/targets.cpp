@@ -1,5 +1,6 @@
-#include "oriel/pipeline/targets.h"
+#include "oriel/drawing/targets.h"
 
+#include "interpret/plan/plan.h"
 #include "kernel/base/index.h"
 #include "model/tolerances.h"
 
@@ -14,6 +15,27 @@ double least_edge_m(const Profile* profile, std::optional<double> scale) {
   if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;
   const auto sizes = profile != nullptr ? profile->thresholds(scale) : std::nullopt;
   return sizes ? sizes->c_m : kGapOnMap_m * scale.value_or(0);
+}
+
+RedrawContext redraw_context(const Building& building, const PipelineResult& result,
+                             const LabelledBuilding& labelled, const PipelineOptions& options) {
+  return {building,
+          labelled,
+          *result.solid,
+          *result.segmentation,
+          result.description.table,
+          result.interpretation,
+          segment_options(options, result.tolerances)};
+}
+
+Plan plan_at(const RuleBase& rules, const Profile* profile, const PipelineResult& result,
+             std::optional<double> scale) {
+  const auto& [table, graph, issues] = result.description;
+  Plan asked;
+  if (scale) asked = plan(rules, table, graph, result.interpretation, *scale);
+  if (profile == nullptr) return asked;
+  return plan_by_profile(std::move(asked), *profile, rules, *result.segmentation, table,
+                         result.interpretation, scale);
 }
 
 Invariants invariants_of(const Profile* profile, const RuleBase& rules,

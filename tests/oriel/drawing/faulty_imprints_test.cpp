@@ -1,4 +1,4 @@
-#include "oriel/pipeline/faulty_imprints.h"
+#include "oriel/drawing/faulty_imprints.h"
 
 #include "kernel/segment/flush/draw_imprints.h"
 #include "oriel/oriel.h"

@@ -1,4 +1,4 @@
-#include "oriel/pipeline/targets.h"
+#include "oriel/drawing/targets.h"
 #include "tests/support/shapes.h"
 
 #include <utility>

@@ -1,7 +1,7 @@
-#include "oriel/pipeline/faulty_imprints.h"
+#include "oriel/drawing/faulty_imprints.h"
 
 #include "kernel/base/indexed_vector.h"
-#include "oriel/pipeline/output_check.h"
+#include "oriel/drawing/output_check.h"
 
 #include <algorithm>
 #include <array>

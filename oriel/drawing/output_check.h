@@ -1,14 +1,17 @@
 #pragma once
 
-#include "generalise/invariants/invariants.h"
+#include "generalise/context.h"
 #include "io/document.h"
 #include "kernel/base/issue.h"
+#include "kernel/base/work.h"
 #include "kernel/validate/validate.h"
 #include "model/labelled_building.h"
 #include "model/solid.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace oriel {
@@ -43,19 +46,35 @@ void mend_written(const Document& document, const Building& building, Solid& sol
 /// The same with labels: what is left of facets is what they were.
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled);
 
-/// A judge of solids to be written in the place of the polygons of `building`, whose solid is
-/// `own`; all must outlive it.
-SolidValidator judge_as_written(const Document& document, const Building& building,
-                                const Solid& own, bool is_thorough);
+/// Judges solids to be written in the place of the polygons of a building, whose solid is `own`.
+/// Each judgement is counted in the work; once that is used up, or nobody waits, all is unfit, and
+/// no work is left. Refers to all that it is made of.
+class WrittenJudge : public SolidJudge {
+ public:
+  WrittenJudge(const Document& document, const Building& building, const Solid& own, Work& work,
+               std::function<bool()> is_given_up = {})
+      : document_(document),
+        building_(building),
+        own_(own),
+        work_(work),
+        is_given_up_(std::move(is_given_up)) {}
 
-/// The same, its work counted: once that is used up all is unfit.
-SolidValidator counted(SolidValidator validator, Work& work);
+  Fitness fitness_of(const Solid& solid) override;
+
+ private:
+  const Document& document_;
+  const Building& building_;
+  const Solid& own_;
+  Work& work_;
+  std::function<bool()> is_given_up_;
+  std::optional<bool> can_be_valid_{};  ///< once it was asked
+};
 
 /// What drawing a building for its targets may take: the budget of a stage and half of it, as steps
 /// are taken back one by one and all is cut anew each time.
 Work drawing_work(std::int64_t budget);
 
-/// E502 of a building that is generalised.
-Issue not_all_drawn(const Building& building, const Work& work);
+/// E502 of a building that is generalised with that budget.
+Issue not_all_drawn(const Building& building, std::int64_t budget);
 
 }  // namespace oriel
