@@ -45,10 +45,11 @@ class HindranceFinder {
   HindranceFinder(const Operator& its, const Redrawing& task) : its_(its), task_(task) {}
 
   Hindrance run() {
+    const auto kind = std::ranges::find(operator_table(), its_.name, &OperatorKind::name);
     const double gap_m = task_.gap_m();
-    add_length("gap", std::min(kLeastGap_m, gap_m), gap_m);
+    if (kind->takes("gap")) add_length("gap", std::min(kLeastGap_m, gap_m), gap_m);
     if (its_.name == "symbolise") add_length("to", task_.to_m() / kEighths, task_.to_m());
-    if (its_.name == "typify") add_ratio();
+    if (kind->takes("ratio")) add_ratio();
     if (its_.name != "symbolise") add_beside();
     return std::move(out_);
   }

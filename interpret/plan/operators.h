@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -20,14 +21,20 @@ struct OperatorKind {
   std::string name;
   std::string meaning;
   std::vector<OperatorArgument> arguments;
+
+  [[nodiscard]] bool takes(std::string_view argument) const;
 };
 
 /// All operators by name.
 const std::vector<OperatorKind>& operator_table();
 
-/// What an operator redraws together: one feature; those of a row (of one storey and wall plane, or
-/// group of the pack), all of them or none, unless the step makes them blocks; those of one wall
-/// plane, of which some may stay as they are.
+/// What an operator redraws together:
+/// - feature: one feature after the other, so what was drawn before may be in the way already. For
+///   what stays where it is.
+/// - row: those of one storey and wall plane, or group of the pack, all of them or none, unless the
+///   step makes them blocks.
+/// - wall: those of one wall plane. For what moves: all places can be found before any is drawn.
+///   Those that stay as they are come back as Placed::left, and the others are tried again.
 enum class OperatorScope { feature, row, wall };
 
 /// What is carried out first: what puts features back, what moves a facet after what is put onto

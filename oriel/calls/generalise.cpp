@@ -84,8 +84,8 @@ bool keep(const std::vector<Issue>& issues, Drawn& drawn) {
 
 void TargetDrawer::draw_levels(Drawn& drawn) {
   const PipelineResult& result = *drawn.source->result;
-  WrittenJudge judge(document_, building_, *result.solid, drawn.source->work,
-                     [this] { return is_given_up(Stage::generalise); });
+  WrittenJudge judge(document_, building_, *result.solid, drawn.source->is_parted,
+                     drawn.source->work, [this] { return is_given_up(Stage::generalise); });
   RedrawContext context = context_of(drawn, &judge);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
   for (std::size_t i = 0; i < count && !is_given_up(Stage::generalise); ++i) {
@@ -135,7 +135,7 @@ bool TargetDrawer::draw_for(const Profile* profile, RedrawContext& context, Draw
     level.redrawn = redraw(context, std::move(*made.value));
   }
   keep_fineness(profile, context, level, drawn);
-  finish_repaired(*drawn.source, level.redrawn.labelled);
+  finish(*drawn.source, level.redrawn.labelled);
   drawn.levels.push_back(std::move(level));
   return true;
 }

@@ -3,7 +3,7 @@
 #include "generalise/generalise.h"
 #include "model/version.h"
 #include "oriel/drawing/output_check.h"
-#include "oriel/drawing/repair_and_retry.h"
+#include "oriel/drawing/repaired.h"
 #include "oriel/drawing/targets.h"
 #include "oriel/pipeline/pipeline.h"
 #include "oriel/segment.h"
@@ -54,18 +54,15 @@ LabelledBuilding output_of(const Building& building, const Repaired& repaired,
 /// not be done.
 std::optional<Issue> make_valid(const Document& document, const Building& building,
                                 const PipelineOptions& options, Repaired& out, Work& work) {
-  const auto fault = check_output(document, building, *out.solid);
-  if (!fault) return std::nullopt;
-  Solid mended = *out.solid;
-  mend_written(document, building, mended);
-  if (!check_output(document, building, mended)) {
-    out.solid = std::move(mended);
+  if (auto made = made_valid(document, building, *out.solid)) {
+    out.solid = std::move(made);
     return std::nullopt;
   }
+  const auto fault = check_output(document, building, *out.solid);
   if (options.repair.crossings != Crossings::cut) return fault;
   auto again = repaired_solid(document, building, options.tolerances, options, work);
   if (!again) return fault;
-  out.solid = std::move(again->solid);
+  out.solid = made_valid(document, building, *again->solid);
   out.report = std::move(again->repair);
   return std::nullopt;
 }

@@ -71,7 +71,7 @@ class LevelDrawer : public DrawingLadder, public SeriesOrder {
     return with_party_walls(invariants_of(profile_, rules_, scale), document_, building_,
                             *from_->result);
   }
-  void finish(LabelledBuilding& level) const override { finish_repaired(*from_, level); }
+  void finish(LabelledBuilding& level) const override { DrawingLadder::finish(*from_, level); }
   /// Of a repaired solid each level is judged by itself.
   [[nodiscard]] std::optional<Issue> fault_of(const Solid& solid) const override {
     return from_->is_repaired ? DrawingLadder::fault_of(*from_, solid) : std::nullopt;
@@ -80,7 +80,8 @@ class LevelDrawer : public DrawingLadder, public SeriesOrder {
  private:
   void draw_levels(Drawn& drawn) override {
     from_ = drawn.source;
-    WrittenJudge judge(document_, building_, *from_->result->solid, drawn.source->work);
+    WrittenJudge judge(document_, building_, *from_->result->solid, from_->is_parted,
+                       drawn.source->work);
     auto levels = series_levels(context_of(drawn, &judge), *this, scales_);
     drawn.issues = std::move(levels.issues);
     if (levels.value) drawn.levels = std::move(*levels.value);

@@ -2,38 +2,79 @@
 
 #include "oriel/drawing/faulty_imprints.h"
 #include "oriel/drawing/output_check.h"
-#include "oriel/drawing/repair_and_retry.h"
+#include "oriel/drawing/repaired.h"
 #include "oriel/drawing/targets.h"
+#include "oriel/pipeline/pipeline.h"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace oriel {
 
+/// A solid that was made for a building, as far as the solid, and how it is to be drawn.
+struct DrawingLadder::MadeSolid {
+  PipelineResult made;
+  Work work;
+  bool is_repaired = false;
+  bool is_folded = false;  ///< it is valid only once it is mended
+};
+
 Drawn DrawingLadder::run(const PipelineResult& result) {
-  // It is not owned: the caller has it.
-  std::shared_ptr<const PipelineResult> from(std::shared_ptr<const PipelineResult>(), &result);
-  if (result.is_open()) {
+  std::vector<MadeSolid> solids;
+  std::optional<Issue> warning;
+  tried_.clear();
+  if (!result.is_open()) {
+    // It is not owned: the caller has it.
+    const std::shared_ptr<const PipelineResult> own(std::shared_ptr<void>(), &result);
+    draw_from(source_of(own, drawing_work(options_.budget)));
+  } else {
     Work work = drawing_work(options_.budget);
-    auto closed = repair_open(document_, building_, result, rules_, options_, work);
-    if (!closed) {
-      Drawn none;
-      none.issues.push_back(stays_open(building_));
-      if (work.is_used_up()) none.used_up_budget = work.budget();
-      return none;
+    if (auto cut = cut_solid(document_, building_, result.tolerances, options_, work)) {
+      warning = repaired_first(building_, cut->repair);
+      add(std::move(*cut), drawing_work(options_.budget), false, solids);
+      draw_from(solids.back(), false);
     }
-    from = std::make_shared<const PipelineResult>(std::move(*closed));
+    if (tried_.empty()) return left_open(work);
   }
-  const auto source = source_of(from, drawing_work(options_.budget), false);
-  Drawn drawn = drawn_judged(source);
-  if (drawn.has_fault() && !is_given_up(Stage::solidify)) {
-    auto other = drawn_repaired(*source);
-    if (!other) other = drawn_without_imprints(drawn);
-    if (other) drawn = std::move(*other);
-  }
-  if (result.is_open()) drawn.issues.insert(drawn.issues.begin(), from->issues.back());
+  if (tried_[0].has_fault() && !is_given_up(Stage::solidify)) climb(std::move(solids));
+  Drawn drawn = std::move(*std::ranges::max_element(tried_, std::ranges::less{}, &Drawn::rank));
+  if (warning) drawn.issues.insert(drawn.issues.begin(), std::move(*warning));
   const Work& work = drawn.source->work;
   if (work.is_used_up()) drawn.used_up_budget = work.budget();
   return drawn;
+}
+
+Drawn DrawingLadder::left_open(const Work& work) const {
+  Drawn none;
+  none.issues.push_back(stays_open(building_));
+  if (work.is_used_up()) none.used_up_budget = work.budget();
+  return none;
+}
+
+void DrawingLadder::climb(std::vector<MadeSolid> solids) {
+  Work work(options_.budget);
+  if (auto made = repaired_solid(document_, building_, tried_[0].source->result->tolerances,
+                                 options_, work)) {
+    add(std::move(*made), work, true, solids);
+    draw_from(solids.back(), false);
+  }
+  for (const MadeSolid& solid : solids) {
+    // Another one would not be cut into fewer pieces.
+    if (is_done() || tried_.back().is_unfinished()) break;
+    if (solid.is_folded) draw_from(solid, true);
+  }
+  if (!is_done()) draw_without_imprints();
+}
+
+bool DrawingLadder::is_done() const {
+  return std::ranges::any_of(tried_, [](const Drawn& one) { return one.rank() == Drawn::kBest; });
+}
+
+void DrawingLadder::add(PipelineResult made, const Work& work, bool is_repaired,
+                        std::vector<MadeSolid>& solids) const {
+  const bool is_folded = check_output(document_, building_, *made.solid).has_value();
+  solids.push_back({std::move(made), work, is_repaired, is_folded});
 }
 
 RedrawContext DrawingLadder::context_of(const Drawn& drawn, SolidJudge* judge) const {
@@ -47,19 +88,19 @@ RedrawContext DrawingLadder::context_of(const Drawn& drawn, SolidJudge* judge) c
   return context;
 }
 
-void DrawingLadder::finish_repaired(const DrawingSource& source, LabelledBuilding& labelled) const {
-  if (source.is_repaired) part_written(document_, building_, labelled);
+void DrawingLadder::finish(const DrawingSource& source, LabelledBuilding& labelled) const {
+  if (source.is_parted || source.is_repaired) part_written(document_, building_, labelled);
 }
 
 std::optional<Issue> DrawingLadder::fault_of(const DrawingSource& source,
                                              const Solid& solid) const {
-  return check_redrawn(document_, building_, *source.result->solid, solid);
+  return check_redrawn(document_, building_, *source.result->solid, source.is_parted, solid);
 }
 
 std::shared_ptr<DrawingSource> DrawingLadder::source_of(
-    std::shared_ptr<const PipelineResult> result, Work work, bool is_repaired) const {
-  auto source = std::make_shared<DrawingSource>(DrawingSource{
-      result, annotate(building_, *result, rules_, options_), std::move(work), is_repaired});
+    std::shared_ptr<const PipelineResult> result, Work work) const {
+  auto source = std::make_shared<DrawingSource>(
+      DrawingSource{result, annotate(building_, *result, rules_, options_), std::move(work)});
   source->cells = redraw_context(building_, *result, source->labelled, options_).shared_cells();
   return source;
 }
@@ -75,27 +116,34 @@ Drawn DrawingLadder::drawn_as(const std::shared_ptr<DrawingSource>& source, Judg
   return drawn;
 }
 
-Drawn DrawingLadder::drawn_judged(const std::shared_ptr<DrawingSource>& source) {
-  const bool is_hard = source->is_repaired && is_intricate(*source->result);
+void DrawingLadder::draw_from(const std::shared_ptr<DrawingSource>& source) {
+  const bool is_hard = source->is_repaired && is_intricate(*source->result->solid);
   Drawn drawn = drawn_as(source, is_hard ? Judging::none : Judging::refused);
-  if (is_hard || !drawn.fault || drawn.fault->code == Code::G413 || source->work.is_used_up())
-    return drawn;
+  const bool may_help = !is_hard && drawn.fault && drawn.fault->code != Code::G413;
+  tried_.push_back(std::move(drawn));
+  if (!may_help || source->work.is_used_up()) return;
   Drawn again = drawn_as(source, Judging::thorough);
-  return again.fault || again.levels.empty() ? std::move(drawn) : std::move(again);
+  if (!again.fault && !again.levels.empty()) tried_.back() = std::move(again);
 }
 
-std::optional<Drawn> DrawingLadder::drawn_repaired(const DrawingSource& source) {
-  Work work(options_.budget);
-  auto repaired = repair_and_retry(document_, building_, *source.result, rules_, options_, work);
-  if (!repaired) return std::nullopt;
-  const auto result = std::make_shared<const PipelineResult>(std::move(*repaired));
-  Drawn drawn = drawn_judged(source_of(result, std::move(work), true));
-  if (!drawn.is_valid()) return std::nullopt;
-  drawn.issues.insert(drawn.issues.begin(), result->issues.back());
-  return drawn;
+void DrawingLadder::draw_from(const MadeSolid& solid, bool is_mended) {
+  PipelineResult made = solid.made;
+  if (is_mended) made.solid = made_valid(document_, building_, *made.solid);
+  const Tolerances tolerances = made.tolerances;
+  auto result = std::make_shared<const PipelineResult>(
+      run_from_solid(std::move(made), building_, &rules_, tolerances, options_));
+  if (!result->is_done() || result->is_open()) return;
+  const auto source = source_of(std::move(result), solid.work);
+  source->is_repaired = solid.is_repaired;
+  source->is_parted = solid.is_folded && !is_mended;
+  draw_from(source);
+  if (solid.is_repaired)
+    tried_.back().issues.insert(tried_.back().issues.begin(),
+                                redrawn_from_inside(building_, solid.made.repair));
 }
 
-std::optional<Drawn> DrawingLadder::drawn_without_imprints(const Drawn& first) {
+void DrawingLadder::draw_without_imprints() {
+  const Drawn& first = tried_[0];
   const PipelineResult& result = *first.source->result;
   FaultyImprints faulty;
   const auto add_faulty = [&](const Drawn& drawn) {
@@ -111,9 +159,9 @@ std::optional<Drawn> DrawingLadder::drawn_without_imprints(const Drawn& first) {
     if (!drawn.is_valid()) continue;
     const auto issues = faulty.issues(result.description.table);
     drawn.issues.insert(drawn.issues.end(), issues.begin(), issues.end());
-    return drawn;
+    tried_.push_back(std::move(drawn));
+    return;
   }
-  return std::nullopt;
 }
 
 }  // namespace oriel

@@ -31,8 +31,10 @@ struct DrawingSource {
   std::shared_ptr<const PipelineResult> result;
   LabelledBuilding labelled;  ///< what annotate() says of it
   Work work;                  ///< of all targets and all ways that are tried with it
-  /// It is repaired_solid(): folded facets are parted as they will be written.
+  /// It is a repaired_solid(): what would be folded as it is written is parted (part_written).
   bool is_repaired = false;
+  /// Its solid is valid only once it is mended (made_valid), and so is what is drawn.
+  bool is_parted = false;
   std::shared_ptr<detail::BuildingCells> cells{};
 };
 
@@ -55,18 +57,24 @@ struct Drawn {
   [[nodiscard]] bool is_valid() const {
     return !has_fault() && !levels.empty() && !has_errors(issues);
   }
+  [[nodiscard]] bool is_unfinished() const { return source->work.is_used_up(); }
+  /// How good it is: not valid, valid as far as the work lasted, or the best.
+  static constexpr int kBest = 2;
+  [[nodiscard]] int rank() const { return !is_valid() ? 0 : is_unfinished() ? 1 : kBest; }
 };
 
 /// Draws one building so that it is valid as it is written, in the first of these ways that is:
 ///
-/// 1. as its plan asks, from its own solid, an open one from what repair_open() makes of it (G420)
+/// 1. as its plan asks, from its own solid, an open one from its cut_solid() (G420)
 /// 2. with every step judged, unless the building came invalid: then no step can be told to spoil
 /// it
-/// 3. from a repaired solid (G417), as 1 and 2
-/// 4. without the outlines of imprints that are in the way (G410 of each)
+/// 3. from its repaired_solid() (G417), as 1 and 2
+/// 4. from these solids mended before they are segmented: facets that are parted have planes of
+///    their own, which cut features into pieces
+/// 5. without the outlines of imprints that are in the way (G410 of each)
 ///
-/// Else it comes as in 1, with its fault, and whoever asks says what becomes of it. Once the work
-/// of a solid is used up nothing more is tried with it.
+/// What is valid but not finished, as the work of its solid was used up, gives way to what is. If
+/// none is valid it comes as in 1, with its fault, and whoever asks says what becomes of it.
 class DrawingLadder {
  public:
   DrawingLadder(const Document& document, const Building& building, const RuleBase& rules,
@@ -89,8 +97,8 @@ class DrawingLadder {
 
   /// What is drawn is drawn with. `judge` may be null.
   [[nodiscard]] RedrawContext context_of(const Drawn& drawn, SolidJudge* judge) const;
-  /// Parts what would be folded as it is written, of a repaired solid.
-  void finish_repaired(const DrawingSource& source, LabelledBuilding& labelled) const;
+  /// Parts what would be folded as it is written, of a source that is repaired or parted.
+  void finish(const DrawingSource& source, LabelledBuilding& labelled) const;
   [[nodiscard]] std::optional<Issue> fault_of(const DrawingSource& source,
                                               const Solid& solid) const;
 
@@ -100,13 +108,25 @@ class DrawingLadder {
   const LabelOptions& options_;
 
  private:
-  std::shared_ptr<DrawingSource> source_of(std::shared_ptr<const PipelineResult> result, Work work,
-                                           bool is_repaired) const;
+  struct MadeSolid;
+
+  std::shared_ptr<DrawingSource> source_of(std::shared_ptr<const PipelineResult> result,
+                                           Work work) const;
+  void add(PipelineResult made, const Work& work, bool is_repaired,
+           std::vector<MadeSolid>& solids) const;
+  [[nodiscard]] Drawn left_open(const Work& work) const;
+  /// The rungs after the first; `solids` are those that were made by then.
+  void climb(std::vector<MadeSolid> solids);
+  /// One that was tried is the best.
+  [[nodiscard]] bool is_done() const;
   Drawn drawn_as(const std::shared_ptr<DrawingSource>& source, Judging judging,
                  std::vector<FeatureId> undrawn = {});
-  Drawn drawn_judged(const std::shared_ptr<DrawingSource>& source);
-  std::optional<Drawn> drawn_repaired(const DrawingSource& source);
-  std::optional<Drawn> drawn_without_imprints(const Drawn& first);
+  /// As its plan asks, and where that is not valid with every step judged.
+  void draw_from(const std::shared_ptr<DrawingSource>& source);
+  void draw_from(const MadeSolid& solid, bool is_mended);
+  void draw_without_imprints();
+
+  std::vector<Drawn> tried_;
 };
 
 }  // namespace oriel

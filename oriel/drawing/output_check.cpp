@@ -113,12 +113,12 @@ Issue invalid_before(const Building& building, const std::string& why) {
 }
 
 std::optional<Issue> check_redrawn(const Document& document, const Building& building,
-                                   const Solid& own, const Solid& solid) {
+                                   const Solid& own, bool is_parted, const Solid& solid) {
   auto fault = check_output(document, building, solid);
   if (!fault) return fault;
   std::string why = fault->sentence;
   why.erase(0, why.find(": ") + 2);
-  if (!can_be_valid(document, building, own)) return {invalid_before(building, why)};
+  if (!is_parted && !can_be_valid(document, building, own)) return {invalid_before(building, why)};
   fault->code = Code::G410;
   fault->sentence = "would not be valid as written: " + why;
   return fault;
@@ -130,6 +130,15 @@ void mend_written(const Document& document, const Building& building, Solid& sol
     if (!parted) return;
     solid = std::move(parted->solid);
   }
+}
+
+std::optional<Solid> made_valid(const Document& document, const Building& building,
+                                const Solid& solid) {
+  if (!check_output(document, building, solid)) return solid;
+  Solid mended = solid;
+  mend_written(document, building, mended);
+  if (check_output(document, building, mended)) return std::nullopt;
+  return mended;
 }
 
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled) {
@@ -144,8 +153,10 @@ Fitness WrittenJudge::fitness_of(const Solid& solid) {
   if (is_given_up_ && is_given_up_()) work_ = Work(-1);
   work_.add(kStepsPerJudging * corners_of(solid));
   if (work_.is_used_up()) return Fitness::unfit;
-  if (!check_output(document_, building_, solid)) return Fitness::valid;
-  if (!can_be_valid_) can_be_valid_ = can_be_valid(document_, building_, own_);
+  if (is_parted_ ? made_valid(document_, building_, solid).has_value()
+                 : !check_output(document_, building_, solid))
+    return Fitness::valid;
+  if (!can_be_valid_) can_be_valid_ = is_parted_ || can_be_valid(document_, building_, own_);
   return *can_be_valid_ ? Fitness::unfit : Fitness::as_it_came;
 }
 

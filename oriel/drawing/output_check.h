@@ -27,8 +27,9 @@ std::optional<Issue> check_output(const Document& document, const Building& buil
 
 /// The same of a solid that was redrawn. The error is a G410; if the building was not
 /// valid as it was read, and its own solid, nothing done to it, would not be either, a G413.
+/// `is_parted`: as WrittenJudge has it.
 std::optional<Issue> check_redrawn(const Document& document, const Building& building,
-                                   const Solid& own, const Solid& solid);
+                                   const Solid& own, bool is_parted, const Solid& solid);
 
 /// What stays as it is beside the building's geometry and is not valid (E321): installations with
 /// a geometry of their own, and other geometries of its level if it is not redrawn.
@@ -43,19 +44,25 @@ Issue invalid_before(const Building& building, const std::string& why);
 /// else is wrong. Whether the rest is valid has to be judged.
 void mend_written(const Document& document, const Building& building, Solid& solid);
 
+/// A solid that is valid as it is written: as it is, or mended; nothing if neither is.
+std::optional<Solid> made_valid(const Document& document, const Building& building,
+                                const Solid& solid);
+
 /// The same with labels: what is left of facets is what they were.
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled);
 
 /// Judges solids to be written in the place of the polygons of a building, whose solid is `own`.
 /// Each judgement is counted in the work; once that is used up, or nobody waits, all is unfit, and
-/// no work is left. Refers to all that it is made of.
+/// no work is left. Refers to all that it is made of. `is_parted`: `own` is valid once it is
+/// mended, and so will be what is written.
 class WrittenJudge : public SolidJudge {
  public:
-  WrittenJudge(const Document& document, const Building& building, const Solid& own, Work& work,
-               std::function<bool()> is_given_up = {})
+  WrittenJudge(const Document& document, const Building& building, const Solid& own, bool is_parted,
+               Work& work, std::function<bool()> is_given_up = {})
       : document_(document),
         building_(building),
         own_(own),
+        is_parted_(is_parted),
         work_(work),
         is_given_up_(std::move(is_given_up)) {}
 
@@ -65,6 +72,7 @@ class WrittenJudge : public SolidJudge {
   const Document& document_;
   const Building& building_;
   const Solid& own_;
+  bool is_parted_;
   Work& work_;
   std::function<bool()> is_given_up_;
   std::optional<bool> can_be_valid_{};  ///< once it was asked

@@ -218,7 +218,6 @@ TEST_SUITE("interpret") {
       CHECK_FALSE(kind.meaning.empty());
     }
     std::ranges::sort(names);
-    CHECK(names == std::vector<std::string>{"aggregate", "collapse", "displace", "enlarge",
-                                            "flatten", "merge", "omit", "symbolise", "typify"});
+    CHECK(std::ranges::adjacent_find(names) == names.end());
   }
 }

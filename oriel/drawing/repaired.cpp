@@ -1,4 +1,4 @@
-#include "oriel/drawing/repair_and_retry.h"
+#include "oriel/drawing/repaired.h"
 
 #include "kernel/base/text/counted.h"
 #include "kernel/validate/validate.h"
@@ -22,7 +22,9 @@ struct Times {
 };
 constexpr std::array<Times, 4> kTimes{{{1, 1}, {0.5, 1}, {2.5, 2.5}, {5, 5}}};
 
-Issue repair_warning(const Building& building, const PipelineResult& result) {
+}  // namespace
+
+Issue redrawn_from_inside(const Building& building, const RepairReport& report) {
   const auto findings = validate(building);
   const std::string why = findings.empty()
                               ? "its surface"
@@ -31,11 +33,9 @@ Issue repair_warning(const Building& building, const PipelineResult& result) {
   return building_issue(Severity::warning, Code::G417, building.id,
                         fmt::format("{} would not be valid as written: it is redrawn from the "
                                     "boundary of its interior, with {} cut",
-                                    why, counted(result.repair.cut, "polygon")));
+                                    why, counted(report.cut, "polygon")));
 }
 
-/// What repair() does: with crossings cut, and if that is not valid as it is written mended, or
-/// from the boundary of the inside.
 std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
                                         const Tolerances& tolerances,
                                         const PipelineOptions& options, Work& work) {
@@ -44,13 +44,11 @@ std::optional<PipelineResult> cut_solid(const Document& document, const Building
   PipelineResult cut = run_to_solid(building, tolerances, cutting, work, options.observer);
   if (!cut.solid || work.is_used_up()) return std::nullopt;
   cut.tolerances = tolerances;
-  if (!check_output(document, building, *cut.solid)) return cut;
-  mend_written(document, building, *cut.solid);
-  if (!check_output(document, building, *cut.solid)) return cut;
+  if (made_valid(document, building, *cut.solid)) return cut;
   return repaired_solid(document, building, tolerances, options, work);
 }
 
-Issue mended_first(const Building& building, const RepairReport& report) {
+Issue repaired_first(const Building& building, const RepairReport& report) {
   double closed_m2 = 0;
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
   return building_issue(
@@ -60,8 +58,6 @@ Issue mended_first(const Building& building, const RepairReport& report) {
                   counted(report.cut, "polygon"), report.dangling.size() + report.inner.size(),
                   counted(report.caps.size(), "hole"), closed_m2));
 }
-
-}  // namespace
 
 std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
                                              const Tolerances& tolerances,
@@ -76,35 +72,9 @@ std::optional<PipelineResult> repaired_solid(const Document& document, const Bui
     if (work.is_used_up()) return std::nullopt;
     made.tolerances = tried;
     if (!made.solid) continue;
-    mend_written(document, building, *made.solid);
-    if (!check_output(document, building, *made.solid)) return made;
+    if (made_valid(document, building, *made.solid)) return made;
   }
   return std::nullopt;
-}
-
-std::optional<PipelineResult> repair_and_retry(const Document& document, const Building& building,
-                                               const PipelineResult& result, const RuleBase& rules,
-                                               const LabelOptions& options, Work& work) {
-  auto repaired = repaired_solid(document, building, result.tolerances, options, work);
-  if (!repaired) return std::nullopt;
-  const Tolerances tolerances = repaired->tolerances;
-  PipelineResult again =
-      run_from_solid(std::move(*repaired), building, &rules, tolerances, options);
-  if (!again.is_done() || again.is_open()) return std::nullopt;
-  again.issues.push_back(repair_warning(building, again));
-  return again;
-}
-
-std::optional<PipelineResult> repair_open(const Document& document, const Building& building,
-                                          const PipelineResult& result, const RuleBase& rules,
-                                          const LabelOptions& options, Work& work) {
-  auto solid = cut_solid(document, building, result.tolerances, options, work);
-  if (!solid) return std::nullopt;
-  const Tolerances tolerances = solid->tolerances;
-  PipelineResult again = run_from_solid(std::move(*solid), building, &rules, tolerances, options);
-  if (!again.is_done() || again.is_open()) return std::nullopt;
-  again.issues.push_back(mended_first(building, again.repair));
-  return again;
 }
 
 Issue stays_open(const Building& building) {
@@ -117,6 +87,6 @@ Issue stays_open(const Building& building) {
                         "is open and cannot be repaired: there is no solid to redraw");
 }
 
-bool is_intricate(const PipelineResult& repaired) { return repaired.solid->facets.size() > 1000; }
+bool is_intricate(const Solid& repaired) { return repaired.facets.size() > 1000; }
 
 }  // namespace oriel

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "io/document.h"
+#include "kernel/base/work.h"
+#include "oriel/label.h"
+#include "oriel/result.h"
+
+#include <optional>
+
+namespace oriel {
+
+/// The solid of a building whose own solid would not be valid as it is written: its surface runs
+/// through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), with the
+/// tolerances given, or finer or up to five times coarser ones if they do not help. It is valid as
+/// it is written once it is mended (made_valid). Nothing if none is, or once `work` is used up;
+/// else the result as far as the solid, with the tolerances that it was made with.
+std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
+                                             const Tolerances& tolerances,
+                                             const PipelineOptions& options, Work& work);
+
+/// The solid that repair() makes of an open building: with crossings cut, or if that cannot be made
+/// valid its repaired_solid(); otherwise as that.
+std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
+                                        const Tolerances& tolerances,
+                                        const PipelineOptions& options, Work& work);
+
+/// The warning G417 that a building is drawn from its repaired_solid().
+Issue redrawn_from_inside(const Building& building, const RepairReport& report);
+
+/// The warning G420 that an open building is drawn from its cut_solid().
+Issue repaired_first(const Building& building, const RepairReport& report);
+
+/// Whether a repaired solid has so many facets that it is drawn without its steps being judged:
+/// with all that lies within millimetres of each other in it, that takes minutes and helps little.
+bool is_intricate(const Solid& repaired);
+
+/// The error G404: an open building that cut_solid() cannot help either; of an outline (lod 0)
+/// E205.
+Issue stays_open(const Building& building);
+
+}  // namespace oriel
