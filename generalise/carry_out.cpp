@@ -215,8 +215,7 @@ class StepLoop {
   bool undo_drawn_too_fine(const Generalised& out) {
     if (least_m() <= 0 || out.changed.empty()) return false;
     const std::size_t count = undone_.size();
-    for (const ShortEdge& edge : short_edges_of_drawn(
-             context_.solid, out.solid, context_.segmentation, out.changed, out.removed, least_m()))
+    for (const ShortEdge& edge : short_edges_of_drawn(context_, out, least_m()))
       if (const FeatureId id = cause_of(edge.feature, out);
           may_be_undone(id) && !is_beside_follower(edge, out)) {
         const std::string reason = fmt::format("an edge of {:.2f} m would be drawn", edge.length_m);
@@ -254,8 +253,7 @@ class StepLoop {
   bool undo_torn(const Generalised& out) {
     if (least_m() <= 0 || pieces_.may_stay.empty()) return false;
     const std::size_t count = undone_.size();
-    for (const ShortEdge& edge :
-         new_short_edges(context_.solid, out.solid, context_.segmentation, out.removed, least_m()))
+    for (const ShortEdge& edge : new_short_edges(context_, out.solid, out.removed, least_m()))
       for (const Step& step : plan_.steps)
         if (is_removed_piece(step.feature, out) && is_torn(step.feature, edge))
           undone_.add({step.feature, Code::G418,

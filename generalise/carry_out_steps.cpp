@@ -1,5 +1,4 @@
 #include "generalise/carry_out.h"
-#include "generalise/needs.h"
 #include "generalise/operators/facade.h"
 #include "generalise/operators/follow.h"
 #include "generalise/operators/operators.h"

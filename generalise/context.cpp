@@ -3,6 +3,7 @@
 #include "generalise/removal/building_cells.h"
 
 #include <iterator>
+#include <utility>
 
 namespace oriel {
 
@@ -11,6 +12,12 @@ std::int64_t corners_of(const Solid& solid) {
   for (const Facet& facet : solid.facets)
     for (const Loop& loop : facet.loops) corners += std::ssize(loop);
   return corners;
+}
+
+Issue RedrawContext::issue(Severity severity, Code code, FeatureId of, std::string sentence) const {
+  Issue issue = building_issue(severity, code, table.building(), std::move(sentence));
+  if (of.is_valid()) issue.place.feature = table.id(of);
+  return issue;
 }
 
 bool RedrawContext::may_go_on(const Solid& on, std::int64_t steps) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "generalise/invariants/invariants.h"
+#include "kernel/base/issue.h"
 #include "kernel/base/work.h"
 #include "kernel/segment/segment.h"
 #include "model/building.h"
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace oriel {
@@ -31,9 +33,6 @@ enum class Fitness {
 /// Says how fit a solid is. That takes longer than cutting, and whoever writes checks anyway.
 class SolidJudge {
  public:
-  SolidJudge() = default;
-  SolidJudge(const SolidJudge&) = delete;
-  SolidJudge& operator=(const SolidJudge&) = delete;
   virtual ~SolidJudge() = default;
 
   virtual Fitness fitness_of(const Solid& solid) = 0;
@@ -75,6 +74,9 @@ struct RedrawContext {
   std::optional<Measures> before{};
   /// The cells of the segmentation, for all that is tried with it; null: they are found each time.
   std::shared_ptr<detail::BuildingCells> cells{};
+
+  /// An issue of the building, or of one of its features.
+  [[nodiscard]] Issue issue(Severity severity, Code code, FeatureId of, std::string sentence) const;
 
   [[nodiscard]] const Feature& feature(FeatureId id) const {
     return segmentation.features[id.index()];

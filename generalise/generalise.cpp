@@ -14,29 +14,23 @@ namespace oriel {
 
 namespace {
 
-Issue note_of(const RedrawContext& context, FeatureId id, Severity severity, Code code,
-              std::string sentence) {
-  Issue issue = building_issue(severity, code, context.table.building(), std::move(sentence));
-  issue.place.feature = context.table.id(id);
-  return issue;
-}
-
 Issue refusal_issue(const RedrawContext& context, const Plan& plan, const RefusedStep& refusal,
                     const std::string& target) {
   const FeatureTable& table = context.table;
   const std::string reason = reason_of(refusal, table);
   const FeatureId id = refusal.feature, parent = context.feature(id).parent;
   if (is_part(refusal, plan, context.interpretation))
-    return note_of(
-        context, id, Severity::note, refusal.code,
+    return context.issue(
+        Severity::note, refusal.code, id,
         fmt::format("is a part of the building and stays at {}: without it {}", target, reason));
   if (parent.is_valid() && context.interpretation.verdicts[id.index()].label.empty())
-    return note_of(context, id, Severity::note, refusal.code,
-                   fmt::format("is a piece of {} and stays with it at {}: {}", table.id(parent),
-                               target, reason));
-  return note_of(context, id, Severity::warning, refusal.code,
-                 fmt::format("is not {} at {}: {}",
-                             refusal.code == Code::G403 ? "changed" : "omitted", target, reason));
+    return context.issue(Severity::note, refusal.code, id,
+                         fmt::format("is a piece of {} and stays with it at {}: {}",
+                                     table.id(parent), target, reason));
+  return context.issue(
+      Severity::warning, refusal.code, id,
+      fmt::format("is not {} at {}: {}", refusal.code == Code::G403 ? "changed" : "omitted", target,
+                  reason));
 }
 
 /// What pushed a feature, or the feature.
@@ -113,12 +107,13 @@ Checked<Generalised> generalise(const RedrawContext& context, const Plan& plan) 
       out.issues.push_back(refusal_issue(context, plan, refusal, target));
   for (const AlongFeature& one : done.along)
     if (!one.reason.empty())
-      out.issues.push_back(note_of(context, one.feature, Severity::note, Code::G424,
-                                   fmt::format("goes along with {} at {}, as it cannot follow: {}",
-                                               context.table.id(one.with), target, one.reason)));
+      out.issues.push_back(
+          context.issue(Severity::note, Code::G424, one.feature,
+                        fmt::format("goes along with {} at {}, as it cannot follow: {}",
+                                    context.table.id(one.with), target, one.reason)));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
-    out.issues.push_back(building_issue(
-        Severity::error, Code::G402, context.table.building(),
+    out.issues.push_back(context.issue(
+        Severity::error, Code::G402, {},
         fmt::format("no closed solid would be left at {}; it stays unchanged", target)));
     return out;
   }

@@ -161,16 +161,12 @@ bool is_as_long_as_before(const ShortEdge& edge, const Segmentation& segmentatio
 }
 
 /// By input polygon the feature that an operator drew, or an invalid one if it only went with that.
-std::map<int, FeatureId> drawn_polygons(const Segmentation& segmentation,
-                                        const std::vector<FeatureId>& changed,
-                                        const std::vector<FeatureId>& removed) {
+std::map<int, FeatureId> drawn_polygons(const RedrawContext& context, const Generalised& made) {
   std::map<int, FeatureId> drawn;
-  for (const FeatureId id : changed)
-    for (const int polygon : segmentation.features[id.index()].source_polygons)
-      drawn.try_emplace(polygon, id);
-  for (const FeatureId id : removed)
-    for (const int polygon : segmentation.features[id.index()].source_polygons)
-      drawn.try_emplace(polygon);
+  for (const FeatureId id : made.changed)
+    for (const int polygon : context.feature(id).source_polygons) drawn.try_emplace(polygon, id);
+  for (const FeatureId id : made.removed)
+    for (const int polygon : context.feature(id).source_polygons) drawn.try_emplace(polygon);
   return drawn;
 }
 
@@ -187,9 +183,7 @@ FeatureId drawn_owner(const Facet& facet, const std::map<int, FeatureId>& drawn)
 
 /// Edges, shorter than asked for, of cells and outlines of what stays as it was: their ends.
 std::vector<std::pair<Vec3, Vec3>> edges_of_staying(const Segmentation& segmentation,
-                                                    const std::vector<FeatureId>& changed,
-                                                    const std::vector<FeatureId>& removed,
-                                                    double least_m) {
+                                                    const Generalised& drawn, double least_m) {
   std::vector<std::pair<Vec3, Vec3>> edges;
   const auto add = [&](const Loop& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -199,7 +193,8 @@ std::vector<std::pair<Vec3, Vec3>> edges_of_staying(const Segmentation& segmenta
     }
   };
   const auto stays = [&](FeatureId id) {
-    return !std::ranges::binary_search(changed, id) && !std::ranges::binary_search(removed, id);
+    return !std::ranges::binary_search(drawn.changed, id) &&
+           !std::ranges::binary_search(drawn.removed, id);
   };
   for (const Cell& cell : segmentation.cells)
     if (stays(cell.feature))
@@ -208,6 +203,14 @@ std::vector<std::pair<Vec3, Vec3>> edges_of_staying(const Segmentation& segmenta
   for (const FeatureId i : ids_below<FeatureId>(segmentation.features.size()))
     if (stays(i)) add(segmentation.features[i.index()].outline);
   return edges;
+}
+
+/// The edge lies between these points, whichever way it runs.
+bool has_ends(const ShortEdge& edge, Vec3 p, Vec3 q) {
+  const auto are = [&](Vec3 from, Vec3 to) {
+    return length(from - edge.from) <= kOnBox_m && length(to - edge.to) <= kOnBox_m;
+  };
+  return are(p, q) || are(q, p);
 }
 
 /// A facet of the solid as outlines.
@@ -259,33 +262,31 @@ std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segme
   return edges;
 }
 
-std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
-                                       const Segmentation& segmentation,
+std::vector<ShortEdge> new_short_edges(const RedrawContext& context, const Solid& after,
                                        const std::vector<FeatureId>& removed, double least_m) {
   std::vector<ShortEdge> edges = edges_below(after, least_m);
   if (edges.empty()) return edges;
-  const SolidCorners corners(before);
+  const SolidCorners corners(context.solid);
   std::erase_if(
       edges, [&](const ShortEdge& edge) { return corners.has(edge.from) && corners.has(edge.to); });
-  find_owners(edges, segmentation, removed);
-  std::erase_if(edges, [&](const ShortEdge& edge) { return is_depth(edge, segmentation); });
+  find_owners(edges, context.segmentation, removed);
+  std::erase_if(edges, [&](const ShortEdge& edge) { return is_depth(edge, context.segmentation); });
   return edges;
 }
 
-std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& after,
-                                            const Segmentation& segmentation,
-                                            const std::vector<FeatureId>& changed,
-                                            const std::vector<FeatureId>& removed, double least_m) {
+std::vector<ShortEdge> short_edges_of_drawn(const RedrawContext& context, const Generalised& drawn,
+                                            double least_m) {
   std::vector<ShortEdge> edges;
-  const auto drawn = drawn_polygons(segmentation, changed, removed);
-  for (const Facet& facet : after.facets)
-    if (const FeatureId owner = drawn_owner(facet, drawn); owner.is_valid())
+  const auto polygons = drawn_polygons(context, drawn);
+  for (const Facet& facet : drawn.solid.facets)
+    if (const FeatureId owner = drawn_owner(facet, polygons); owner.is_valid())
       add_edges_below(
-          after, facet, least_m, owner, [](int, int) { return true; }, edges);
+          drawn.solid, facet, least_m, owner, [](int, int) { return true; }, edges);
   if (edges.empty()) return edges;
-  const SolidCorners corners(before);
+  const SolidCorners corners(context.solid);
   std::erase_if(edges, [&](const ShortEdge& edge) {
-    return is_depth(edge, segmentation) || is_as_long_as_before(edge, segmentation) ||
+    return is_depth(edge, context.segmentation) ||
+           is_as_long_as_before(edge, context.segmentation) ||
            (corners.has(edge.from) && corners.has(edge.to));
   });
   return edges;
@@ -293,17 +294,12 @@ std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& af
 
 std::vector<ShortEdge> without_whole_edges(std::vector<ShortEdge> edges,
                                            const Segmentation& segmentation,
-                                           const std::vector<FeatureId>& changed,
-                                           const std::vector<FeatureId>& removed, double least_m) {
+                                           const Generalised& drawn, double least_m) {
   if (edges.empty()) return edges;
-  const auto whole = edges_of_staying(segmentation, changed, removed, least_m);
+  const auto whole = edges_of_staying(segmentation, drawn, least_m);
   std::erase_if(edges, [&](const ShortEdge& edge) {
-    return std::ranges::any_of(whole, [&](const auto& ends) {
-      const auto is_it = [&](Vec3 p, Vec3 q) {
-        return length(p - edge.from) <= kOnBox_m && length(q - edge.to) <= kOnBox_m;
-      };
-      return is_it(ends.first, ends.second) || is_it(ends.second, ends.first);
-    });
+    return std::ranges::any_of(
+        whole, [&](const auto& ends) { return has_ends(edge, ends.first, ends.second); });
   });
   return edges;
 }
@@ -333,21 +329,20 @@ std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segme
   return gaps;
 }
 
-bool add_fine_owners(const Generalised& generalised, const Segmentation& segmentation,
-                     const FeatureTable& table, double least_m, double most_b_m,
-                     const std::string& rule, Plan& plan) {
+bool add_fine_owners(const RedrawContext& context, const Generalised& generalised, double least_m,
+                     double most_b_m, const std::string& rule, Plan& plan) {
   const auto has_step = [&](FeatureId id) {
     return std::ranges::find(plan.steps, id, &Step::feature) != plan.steps.end();
   };
   std::set<FeatureId> owners;
   for (const ShortEdge& edge :
-       short_edges(generalised.solid, segmentation, generalised.removed, least_m)) {
+       short_edges(generalised.solid, context.segmentation, generalised.removed, least_m)) {
     FeatureId id = edge.feature;
     while (id.is_valid() && has_step(id)) {
-      const Feature& feature = segmentation.features[id.index()];
+      const Feature& feature = context.feature(id);
       id = feature.parent.is_valid() ? feature.parent : feature.host;
     }
-    if (id.is_valid() && table.number(id, Attribute::b).value_or(most_b_m) < most_b_m)
+    if (id.is_valid() && context.table.number(id, Attribute::b).value_or(most_b_m) < most_b_m)
       owners.insert(id);
   }
   for (const FeatureId id : owners) plan.steps.push_back({id, "omit", rule});
@@ -388,36 +383,30 @@ std::string reason_of(const ShortEdge& edge, const Generalised& generalised,
                       const std::string& otherwise) {
   std::string refusal = refusal_of(edge.feature, generalised);
   if (!refusal.empty()) return refusal;
-  const auto is_near = [](Vec3 p, Vec3 q) { return length(q - p) <= kOnBox_m; };
   for (const UnclearedEdge& left : generalised.uncleared)
-    if ((is_near(left.from, edge.from) && is_near(left.to, edge.to)) ||
-        (is_near(left.from, edge.to) && is_near(left.to, edge.from)))
-      return left.reason;
+    if (has_ends(edge, left.from, left.to)) return left.reason;
   return otherwise;
 }
 
 }  // namespace
 
-std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
-                                   const Solid& after, const Segmentation& segmentation,
-                                   const FeatureTable& table, const Generalised& generalised,
-                                   const Fineness& asked) {
+std::vector<Issue> fineness_issues(const RedrawContext& context, const Solid& after,
+                                   const Generalised& generalised, const Fineness& asked) {
   const double least_m = asked.least_m;
   const std::vector<FeatureId>& removed = generalised.removed;
   const auto found = asked.is_everywhere
-                         ? short_edges(after, segmentation, removed, least_m)
-                         : new_short_edges(before, after, segmentation, removed, least_m);
+                         ? short_edges(after, context.segmentation, removed, least_m)
+                         : new_short_edges(context, after, removed, least_m);
   FineParts edges, whole, gaps;
   const auto add = [&](FineParts& findings, FeatureId feature, double size_m, Vec3 at) {
     findings[{feature, refusal_of(feature, generalised)}].add(size_m, at);
   };
   if (asked.is_everywhere) {
     for (const ShortEdge& edge : found) add(edges, edge.feature, edge.length_m, edge.from);
-    for (const NarrowGap& gap : narrow_gaps(after, segmentation, removed, least_m))
+    for (const NarrowGap& gap : narrow_gaps(after, context.segmentation, removed, least_m))
       add(gaps, gap.feature, gap.width_m, gap.at);
   } else {
-    const auto torn =
-        without_whole_edges(found, segmentation, generalised.changed, removed, least_m);
+    const auto torn = without_whole_edges(found, context.segmentation, generalised, least_m);
     for (const ShortEdge& edge : torn)
       edges[{edge.feature, reason_of(edge, generalised, asked.why_not_tried)}].add(edge.length_m,
                                                                                    edge.from);
@@ -433,13 +422,12 @@ std::vector<Issue> fineness_issues(const Building& building, const Solid& before
       const auto& [feature, reason] = whose;
       const bool is_new =
           is_left && reason != asked.why_not_tried && refusal_of(feature, generalised).empty();
-      Issue issue = building_issue(
-          asked.is_everywhere || is_new ? Severity::warning : Severity::note, code, building.id,
+      issues.push_back(context.issue(
+          asked.is_everywhere || is_new ? Severity::warning : Severity::note, code, feature,
           fmt::format("has {} {}, the least of {:.3f} m at {}{}{}", finding.count,
                       fmt::format(fmt::runtime(what), least_m), finding.least_m,
-                      place_text(finding.at, building.frame), reason.empty() ? "" : ": ", reason));
-      if (feature.is_valid()) issue.place.feature = table.id(feature);
-      issues.push_back(std::move(issue));
+                      place_text(finding.at, context.building.frame), reason.empty() ? "" : ": ",
+                      reason)));
     }
   };
   report(edges, Code::G415, "edges below {} m left");

@@ -37,29 +37,25 @@ inline constexpr double kOnBox_m = 1e-3;
 std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m);
 
-/// Those that arose between `before` and `after`: without edges from a corner of `before` to
-/// another one, which stand for shorter ones that were between them, and without those along the
-/// depth of a recess.
-std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
-                                       const Segmentation& segmentation,
+/// Those of `after` that are new: without edges from a corner of the context's solid to another
+/// one, which stand for shorter ones that were between them, and without those along the depth of a
+/// recess.
+std::vector<ShortEdge> new_short_edges(const RedrawContext& context, const Solid& after,
                                        const std::vector<FeatureId>& removed, double least_m);
 
 /// Those of parts that an operator drew: new edges of facets whose input polygons are all of
-/// features that are `changed` or `removed` (both ascending), one of a changed one at least, the
-/// owner. Without those along the depth of a recess, and those as long as their feature was along
-/// them: of a block that is as deep as it was, of a low window that moved.
-std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& after,
-                                            const Segmentation& segmentation,
-                                            const std::vector<FeatureId>& changed,
-                                            const std::vector<FeatureId>& removed, double least_m);
+/// features that are changed or removed, one of a changed one at least, the owner. Without those
+/// along the depth of a recess, and those as long as their feature was along them: of a block that
+/// is as deep as it was, of a low window that moved.
+std::vector<ShortEdge> short_edges_of_drawn(const RedrawContext& context, const Generalised& drawn,
+                                            double least_m);
 
 /// The edges without those of parts that stay as they were: edges of a cell, or of an outline, of
-/// the body or of a feature that is neither `changed` nor `removed` (both ascending). A ridge that
+/// the body or of a feature that is neither changed nor removed. A ridge that
 /// a chimney hid is such an edge. `least_m` is what they are shorter than.
 std::vector<ShortEdge> without_whole_edges(std::vector<ShortEdge> edges,
                                            const Segmentation& segmentation,
-                                           const std::vector<FeatureId>& changed,
-                                           const std::vector<FeatureId>& removed, double least_m);
+                                           const Generalised& drawn, double least_m);
 
 /// Gaps narrower than `least_m` between parallel facets that overlap, seen along their normal.
 std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
@@ -69,9 +65,8 @@ std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segme
 /// `generalised`, the owner of each short edge, or, if that was to go and was refused, what carries
 /// it. Only features with a middle extent b below `most_b_m` go so. The steps have the rule `rule`.
 /// False if there are none: then the plan stays as it is.
-bool add_fine_owners(const Generalised& generalised, const Segmentation& segmentation,
-                     const FeatureTable& table, double least_m, double most_b_m,
-                     const std::string& rule, Plan& plan);
+bool add_fine_owners(const RedrawContext& context, const Generalised& generalised, double least_m,
+                     double most_b_m, const std::string& rule, Plan& plan);
 
 /// What a target asks for: a least length of edges, of those that are new or, `is_everywhere`, of
 /// all, and of gaps.
@@ -88,9 +83,7 @@ struct Fineness {
 /// Notes are those of features that were refused, which is reported already, those that nobody
 /// tried to clear (blocks) and, apart from others, those of parts that stay as they were
 /// (without_whole_edges).
-std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
-                                   const Solid& after, const Segmentation& segmentation,
-                                   const FeatureTable& table, const Generalised& generalised,
-                                   const Fineness& asked);
+std::vector<Issue> fineness_issues(const RedrawContext& context, const Solid& after,
+                                   const Generalised& generalised, const Fineness& asked);
 
 }  // namespace oriel

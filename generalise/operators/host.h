@@ -1,6 +1,6 @@
 #pragma once
 
-#include "generalise/needs.h"
+#include "generalise/generalised.h"
 #include "kernel/attach/attach.h"
 #include "kernel/attach/raise_across.h"
 #include "model/segmentation.h"

@@ -14,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -99,5 +100,16 @@ class BuildingCells {
   std::optional<FaceNames> names_{};
   std::optional<bool> is_closed_{};
 };
+
+/// The solid without these leaves of the segmentation (body_without), in planes of the building:
+/// what leaves do not touch stays as it is. Facets name no polygons. `solid` is the one that was
+/// segmented, or another one in its planes that has the leaves.
+///
+/// Nothing if `work` is used up, if that is no closed solid, if it touches itself along more edges
+/// than before, or if more facets are narrower than weld_m: where vertices lie off their planes
+/// slivers come up, and the pieces have to be solidified anew.
+std::optional<Solid> take_out(const Solid& solid, const Segmentation& segmentation,
+                              const VertexPool& vertices, std::span<const CellId> leaves,
+                              double weld_m, Work& work);
 
 }  // namespace oriel::detail

@@ -124,9 +124,8 @@ class EdgeClearer {
   /// The edges of a solid that are to go.
   [[nodiscard]] std::vector<ShortEdge> short_edges_of(const Solid& of) const {
     const double least_m = context_.invariants.least_edge_m;
-    return without_whole_edges(
-        new_short_edges(context_.solid, of, context_.segmentation, drawn_.removed, least_m),
-        context_.segmentation, drawn_.changed, drawn_.removed, least_m);
+    return without_whole_edges(new_short_edges(context_, of, drawn_.removed, least_m),
+                               context_.segmentation, drawn_, least_m);
   }
 
   const RedrawContext& context_;

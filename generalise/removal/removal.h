@@ -14,11 +14,11 @@ namespace oriel {
 /// pieces than it was, that reaches no further than before by more than `unseen_m`, whose footprint
 /// changes by no more than what goes covers, in which every feature that is to stay has some
 /// surface; if something was refused, or all is judged, and the solid of `remainder` is
-/// unfit, that is asked of all features that it has removed, too. Nothing goes by which an invariant
-/// is violated. What is valid comes before what is as it came. Returns `remainder`
-/// itself if none can go. Never goes what has no cells: features known by a ring only, and
-/// imprints. `remainder` must be remove_features() of the same solid. Planes may differ from those
-/// of the segmentation by rounding: the solid is solidified anew. Source: paper, section 4 ("cell
+/// unfit, that is asked of all features that it has removed, too. Nothing goes by which an
+/// invariant is violated. What is valid comes before what is as it came. Returns `remainder` itself
+/// if none can go. Never goes what has no cells: features known by a ring only, and imprints.
+/// `remainder` must be remove_features() of the same solid. Planes may differ from those of the
+/// segmentation by rounding: the solid is solidified anew. Source: paper, section 4 ("cell
 /// complex"); docs/generalisation.md.
 Remainder remove_cells(const RedrawContext& context, Remainder remainder, double unseen_m = 0);
 

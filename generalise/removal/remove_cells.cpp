@@ -1,7 +1,6 @@
 #include "generalise/invariants/stays.h"
 #include "generalise/removal/building_cells.h"
 #include "generalise/removal/removal.h"
-#include "generalise/removal/take_out.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/segment/complex/body_without.h"
@@ -180,17 +179,20 @@ class CellRemover {
   /// The cells of what is left.
   [[nodiscard]] std::vector<CellId> cells_without(
       const std::vector<std::optional<bool>>& fates) const {
-    std::vector<CellId> cells;
-    for (const CellId c : ids_below<CellId>(segmentation_.cells.size()))
-      if (fate_of(c, fates).value_or(segmentation_.cells[c.index()].sign > 0)) cells.push_back(c);
-    return cells;
+    return cells_where([&](CellId c) {
+      return fate_of(c, fates).value_or(segmentation_.cells[c.index()].sign > 0);
+    });
   }
   /// The cells of what goes.
   [[nodiscard]] std::vector<CellId> cells_with(
       const std::vector<std::optional<bool>>& fates) const {
+    return cells_where([&](CellId c) { return fate_of(c, fates).has_value(); });
+  }
+  template <class Is>
+  [[nodiscard]] std::vector<CellId> cells_where(const Is& is) const {
     std::vector<CellId> cells;
     for (const CellId c : ids_below<CellId>(segmentation_.cells.size()))
-      if (fate_of(c, fates)) cells.push_back(c);
+      if (is(c)) cells.push_back(c);
     return cells;
   }
   [[nodiscard]] std::optional<bool> fate_of(CellId cell,

@@ -1,5 +1,4 @@
-#include "generalise/removal/take_out.h"
-
+#include "generalise/removal/building_cells.h"
 #include "generalise/removal/facets.h"
 #include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"

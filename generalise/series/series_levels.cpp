@@ -249,11 +249,9 @@ class Levels {
       add_tasks(before, tasks.first(tasks.size() / 2), best, issues);
       add_tasks(before, tasks.subspan(tasks.size() / 2), best, issues);
     } else {
-      Issue issue = building_issue(
-          Severity::warning, Code::G408, context_.table.building(),
-          "stays unchanged: a change that was made at a larger scale would be undone");
-      issue.place.feature = context_.table.id(tasks[0][0].feature);
-      issues.push_back(std::move(issue));
+      issues.push_back(context_.issue(
+          Severity::warning, Code::G408, tasks[0][0].feature,
+          "stays unchanged: a change that was made at a larger scale would be undone"));
     }
   }
 

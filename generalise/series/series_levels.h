@@ -13,9 +13,6 @@ namespace oriel {
 /// it is written.
 class SeriesOrder {
  public:
-  SeriesOrder() = default;
-  SeriesOrder(const SeriesOrder&) = delete;
-  SeriesOrder& operator=(const SeriesOrder&) = delete;
   virtual ~SeriesOrder() = default;
 
   /// What is asked for at 1 : scale.

@@ -157,8 +157,8 @@ Checked<Generalised> TargetDrawer::carried_out(const Profile* profile, const Red
     if (is_given_up(Stage::generalise)) return {};
     made = generalise(context, plan);
   } while (takes_owners && made.value && !context.has_no_work_left() &&
-           add_fine_owners(*made.value, context.segmentation, context.table, *profile->edge_min_m,
-                           *profile->edge_owner_b_m, profile->title() + "/edge-min", plan));
+           add_fine_owners(context, *made.value, *profile->edge_min_m, *profile->edge_owner_b_m,
+                           profile->title() + "/edge-min", plan));
   return made;
 }
 
@@ -183,13 +183,11 @@ void TargetDrawer::redraw_unchanged(const DrawingSource& source, Generalised& ge
 void TargetDrawer::keep_fineness(const Profile* profile, const RedrawContext& context,
                                  const SeriesLevel& level, Drawn& drawn) const {
   const double least_m = least_edge_m(profile, targets_.scale);
-  const Solid& before = context.solid;
   const auto& geometry = level.redrawn.labelled.geometry;
   Fineness asked{least_m, profile != nullptr && profile->edge_min_m.has_value()};
   if (profile != nullptr && profile->form != Profile::Form::as_is && profile->footprint_edge_m == 0)
     asked.why_not_tried = "blocks keep the footprint and the heights of the roof";
-  keep(fineness_issues(building_, before, geometry ? *geometry : before, context.segmentation,
-                       context.table, level.generalised, asked),
+  keep(fineness_issues(context, geometry ? *geometry : context.solid, level.generalised, asked),
        drawn);
   // They are measured when it is known what is written.
   if (!asked_.reports_figures) return;

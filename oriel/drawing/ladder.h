@@ -80,8 +80,6 @@ class DrawingLadder {
   DrawingLadder(const Document& document, const Building& building, const RuleBase& rules,
                 const LabelOptions& options)
       : document_(document), building_(building), rules_(rules), options_(options) {}
-  DrawingLadder(const DrawingLadder&) = delete;
-  DrawingLadder& operator=(const DrawingLadder&) = delete;
   virtual ~DrawingLadder() = default;
 
   /// `result` is what label() said of the building; it must outlive what is drawn.

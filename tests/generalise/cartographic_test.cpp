@@ -53,9 +53,7 @@ std::map<std::string, int> changed_by(const Line& line, double scale) {
 }
 
 std::size_t short_edges_drawn(const Line& line, const Generalised& made, double least_m) {
-  return short_edges_of_drawn(line.solid, made.solid, line.segmentation, made.changed, made.removed,
-                              least_m)
-      .size();
+  return short_edges_of_drawn(line.context(), made, least_m).size();
 }
 
 LabelledBuilding relabelled(const Line& line, double scale) {

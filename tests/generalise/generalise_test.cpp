@@ -67,7 +67,7 @@ struct Plinth {
   }
 
   [[nodiscard]] std::size_t stubs(const Generalised& of) const {
-    return new_short_edges(line.solid, of.solid, line.segmentation, of.removed, 1.25).size();
+    return new_short_edges(line.context(), of.solid, of.removed, 1.25).size();
   }
 };
 

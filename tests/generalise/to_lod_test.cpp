@@ -186,8 +186,7 @@ TEST_SUITE("generalise") {
     nothing.solid = line.solid;
     const auto told = [&](const Fineness& asked) {
       std::string codes;
-      for (const Issue& issue : fineness_issues(line.building(), line.solid, line.solid,
-                                                line.segmentation, line.table(), nothing, asked)) {
+      for (const Issue& issue : fineness_issues(line.context(), line.solid, nothing, asked)) {
         CHECK((issue.severity == Severity::warning) == asked.is_everywhere);
         codes += to_string(issue.code) + ' ';
       }
@@ -197,9 +196,9 @@ TEST_SUITE("generalise") {
     CHECK(told({0.05, true}).empty());
     CHECK(told({0.2, false}).empty());  // nothing is new
     const Solid other = line_of(BoxBody().add({50, 50, 0}, {60, 60, 9}).build()).solid;
-    CHECK_FALSE(fineness_issues(line.building(), other, line.solid, line.segmentation, line.table(),
-                                nothing, {0.2, false})
-                    .empty());
+    const RedrawContext drawn_of_other{line.building(),   line.labelled, other,
+                                       line.segmentation, line.table(),  line.interpretation};
+    CHECK_FALSE(fineness_issues(drawn_of_other, line.solid, nothing, {0.2, false}).empty());
   }
 
   TEST_CASE("a feature with an edge too short goes if it is narrow and not if it is wide") {
@@ -215,7 +214,7 @@ TEST_SUITE("generalise") {
     left.solid = line.solid;
     Plan plan;
     for (int i = 0; i < 3; ++i) {
-      if (!add_fine_owners(left, line.segmentation, line.table(), 0.3, 1.5, "r", plan)) break;
+      if (!add_fine_owners(line.context(), left, 0.3, 1.5, "r", plan)) break;
       left = *generalise(line.context(), plan).value;
     }
     REQUIRE_FALSE(plan.steps.empty());
