@@ -144,7 +144,7 @@ def measured(program, files, scale, gap_m):
             for one in map(json.loads, lines):
                 if one["outcome"] == "refused" and one["operation"] == "displace":
                     cause = re.split(r", beside |; it would ", one["reason"])[0]
-                    reasons[one["building"], one["feature"]] = re.sub(r"\d+(\.\d+)?", "…", cause)
+                    reasons[one["building"], one["id"]] = re.sub(r"\d+(\.\d+)?", "…", cause)
         for path in sorted(glob.glob(before + "*.json")):
             later = facades_of(os.path.join(after, os.path.basename(path)))
             for (building, plane), openings in facades_of(path).items():

@@ -118,7 +118,7 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
       nlohmann::ordered_json line = nlohmann::ordered_json::object();
       line["building"] = building;
       line["target"] = target;
-      line["feature"] = one.feature;
+      line["id"] = one.feature;
       line["label"] = one.label;
       line["outcome"] = one.outcome;
       line["operation"] = one.operation;

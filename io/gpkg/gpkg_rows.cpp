@@ -89,7 +89,7 @@ class RowMaker {
       for_each_city_polygon(*geometry,
                             [&](const CityPolygon& one) { polygons.push_back(&one.rings); });
     put_geometry(row, polygons);
-    put_text(row, "id", object.id);
+    put_text(row, "building", object.id);
     put_text(row, "type", object.type);
     put_text(row, "part_of", object.parents.empty() ? "" : object.parents[0]);
     put_text(row, "lod", geometry == nullptr ? "" : geometry->lod);
@@ -127,7 +127,7 @@ class RowMaker {
           surface.parent < 0 ? GpkgValue()
                              : GpkgValue(std::int64_t{surface.parent} - static_cast<int>(s)),
           GpkgRole::row);
-      put_text(row, "feature", member_text(surface.members, "oriel_id"));
+      put_text(row, "id", member_text(surface.members, "oriel_id"));
       put_verdict(row, &surface.members);
       put(row, "area_m2", area_m2(polygons[s]));
       put_rest(row, surface.members);

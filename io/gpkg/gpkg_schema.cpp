@@ -62,12 +62,11 @@ struct ColumnMeaning {
   std::string_view meaning;
 };
 
-constexpr std::array<ColumnMeaning, 18> kMeanings{
+constexpr std::array<ColumnMeaning, 17> kMeanings{
     {{"area_m2", "area of the surface in square metres"},
-     {"building", "id of the building or building part, as in the table buildings"},
-     {"feature", "id of the feature that the surface belongs to, as in the table features"},
+     {"building", "id of the building or building part, as in the file of buildings"},
      {"host", "id of the feature that it stands on or lies in; none: the building's body"},
-     {"id", "id, as in the file of buildings"},
+     {"id", "id of the feature; of a surface, that of the feature that it belongs to"},
      {"label", "what the rules say that it is"},
      {"lod", "level of detail of the geometry"},
      {"margin", "how far its score is above that of the next best label"},
@@ -155,15 +154,15 @@ GpkgColumns table_columns(GpkgTable table) {
   const auto declare_texts = [&](std::initializer_list<const char*> names) {
     for (const char* name : names) columns.declare(name, ColumnType::text);
   };
+  declare_texts({"building"});
   if (table == GpkgTable::buildings) {
-    declare_texts({"id", "type", "part_of", "lod"});
+    declare_texts({"type", "part_of", "lod"});
     return columns;
   }
-  declare_texts({"building"});
   if (table == GpkgTable::surfaces) {
     declare_texts({"surface"});
     columns.declare("parent", ColumnType::integer, GpkgRole::row);
-    declare_texts({"feature"});
+    declare_texts({"id"});
   } else {
     declare_texts({"id", "written_as"});
   }

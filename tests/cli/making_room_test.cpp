@@ -74,7 +74,7 @@ TEST_SUITE("cli") {
     std::map<std::string, int> told;
     const auto lines = lines_of(bytes_of(folder / "why.jsonl"));
     for (const std::string& text : lines)
-      if (const json line = json::parse(text); line["label"] == "door") door = line["feature"];
+      if (const json line = json::parse(text); line["label"] == "door") door = line["id"];
     REQUIRE(!door.empty());
     for (const std::string& text : lines) {
       const json line = json::parse(text);

@@ -115,9 +115,9 @@ TEST_SUITE("io") {
                       "WHERE srs_id = 25832") == "EPSG|25832");
     CHECK(package.ask("SELECT definition FROM gpkg_spatial_ref_sys WHERE srs_id = 25832")
               .starts_with("PROJCS[\"ETRS89 / UTM zone 32N\",GEOGCS["));
-    CHECK(package.ask("SELECT id, type, lod, count_window, count_dormer FROM buildings") ==
+    CHECK(package.ask("SELECT building, type, lod, count_window, count_dormer FROM buildings") ==
           "house|Building|2.2|2|1");
-    CHECK(package.ask("SELECT fid, surface, parent, feature, score, area_m2 FROM surfaces") ==
+    CHECK(package.ask("SELECT fid, surface, parent, id, score, area_m2 FROM surfaces") ==
           "1|WallSurface||||8.0 2|Window|1|f1|1.0|14.0 3|Window|1|f2|0.5|6.0 "
           "4|RoofSurface||||12.0");
     CHECK(package.ask("SELECT id, building, written_as, label, rule, function FROM features") ==
@@ -169,7 +169,7 @@ TEST_SUITE("io") {
     CHECK(package.ask("SELECT id FROM features") == "f1 f2 dormer f3");
     // Polygons of the one that the building has, too, are not there twice.
     CHECK(package.ask("SELECT length(geom) FROM features WHERE id = 'f1'") ==
-          package.ask("SELECT length(geom) FROM surfaces WHERE feature = 'f1'"));
+          package.ask("SELECT length(geom) FROM surfaces WHERE id = 'f1'"));
   }
 
   TEST_CASE("polygons of fewer than three corners are in no geometry") {
@@ -208,6 +208,14 @@ TEST_SUITE("io") {
         ++shown;
       CHECK(std::to_string(shown) == rows);
     }
+  }
+
+  TEST_CASE("the tables of a package are joined by the ids of building and feature") {
+    const TemporaryFolder folder;
+    const OpenedPackage package(package_of(folder, box_with_features().text()).path);
+    CHECK(package.ask("SELECT DISTINCT type, surface, f.id FROM buildings JOIN features f USING "
+                      "(building) JOIN surfaces USING (building, id)") ==
+          "Building|Window|f1 Building|Window|f2");
   }
 
   TEST_CASE("columns have names of their own whatever the attributes are called") {

@@ -85,16 +85,16 @@ def differences(path, objects, counts):
     for table, some in rows.items():
         counts[table] += len(some)
     buildings = {name: one for name, one in objects.items() if one["type"] != "BuildingInstallation"}
-    yield from compare("building", {name: 1 for name in buildings}, collections.Counter(row["id"] for row in rows["buildings"]))
+    yield from compare("building", {name: 1 for name in buildings}, collections.Counter(row["building"] for row in rows["buildings"]))
     for row in rows["buildings"]:
-        geometry = city_text.chosen(objects[row["id"]]["geometries"])
+        geometry = city_text.chosen(objects[row["building"]]["geometries"])
         polygons = geometry.plain() if geometry else []
         if polygons_of(row["geom"]) != polygons:
-            yield f"polygons of {row['id']}: {len(polygons)} became {len(polygons_of(row['geom']))}, or others"
-        for key, value in objects[row["id"]]["attributes"].items():
+            yield f"polygons of {row['building']}: {len(polygons)} became {len(polygons_of(row['geom']))}, or others"
+        for key, value in objects[row["building"]]["attributes"].items():
             if isinstance(value, (str, int, float)) and key in row and str(row[key]) != str(value) and row[key] != value:
-                yield f"{row['id']}: {key} was {json.dumps(value)}, is {row[key]!r}"
-    found = collections.Counter((row["building"], row["surface"], row["feature"], row["label"], row.get("score"),
+                yield f"{row['building']}: {key} was {json.dumps(value)}, is {row[key]!r}"
+    found = collections.Counter((row["building"], row["surface"], row["id"], row["label"], row.get("score"),
                                  tuple(sorted(polygons_of(row["geom"])))) for row in rows["surfaces"])
     yield from list(compare("surface", expected_surfaces(objects), found))[:3]
     features = {(row["building"], row["id"]): row["label"] for row in rows["features"]}
