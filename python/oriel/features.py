@@ -4,7 +4,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from typing import Any, Iterable, Iterator, NamedTuple, Optional, Union
+from typing import Any, Iterable, Iterator, NamedTuple, NoReturn, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -36,7 +36,14 @@ relation_schema: dict[str, str] = dict(_oriel.relation_rows())
 """The relations between features of a building, with their meaning."""
 
 
-class Lists(Mapping[int, npt.NDArray[np.int64]]):
+class _NoArray:
+    """A mapping that NumPy and pandas.DataFrame refuse: they would take its keys for its values."""
+
+    def __array__(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError(f"{self!r} is not one array: call to_pandas() of oriel.Features, or dict() for all its arrays")
+
+
+class Lists(_NoArray, Mapping[int, npt.NDArray[np.int64]]):
     """A list of numbers for each feature: those of row i are `others[starts[i]:starts[i + 1]]`, which is `lists[i]`."""
 
     def __init__(self, starts: npt.NDArray[np.int64], others: npt.NDArray[np.int64]) -> None:
@@ -58,7 +65,7 @@ class Lists(Mapping[int, npt.NDArray[np.int64]]):
         return f"<oriel.Lists: {len(self.others)} numbers in {len(self)} lists>"
 
 
-class _Relations(Mapping[str, Lists]):
+class _Relations(_NoArray, Mapping[str, Lists]):
     def __init__(self, features: FeatureSet) -> None:
         self._set = features
 
@@ -72,13 +79,13 @@ class _Relations(Mapping[str, Lists]):
         return Lists(*self._set.lists(name))
 
 
-class Features(Mapping[str, npt.NDArray[Any]]):
+class Features(_NoArray, Mapping[str, npt.NDArray[Any]]):
     """A dict of columns, one row for each feature of all buildings: NumPy arrays of doubles (NaN: missing) or of texts
     (empty: missing).
 
     Columns are those of the command's tables of features (docs/formats.md): building, id, name, label, score ...,
     the box as xmin_m ... zmax_m, then all attributes, whose units are in `oriel.schema`. A column is made when it is
-    asked for; `pandas.DataFrame(dict(features))` has all of them.
+    asked for; to_pandas() has all of them, with types.
     """
 
     def __init__(self, features: FeatureSet) -> None:
@@ -105,6 +112,16 @@ class Features(Mapping[str, npt.NDArray[Any]]):
         """For each relation of `oriel.relation_schema` the rows that each row is related to; and `source_polygons`, the
         numbers of the polygons in it."""
         return _Relations(self._set)
+
+    def to_pandas(self) -> Any:
+        """All columns as a pandas.DataFrame: texts are string, counts Int64, yes/no boolean, all with NA where missing;
+        other numbers are float64 with NaN."""
+        import pandas
+
+        frame = pandas.DataFrame(dict(self)).replace("", None)
+        types = {"count": "Int64", "yes/no": "boolean"}
+        kinds = {name: types.get(attribute.unit, "float64") for name, attribute in schema.items()}
+        return frame.astype({name: "string" if self[name].dtype.kind == "U" else kinds.get(name, "float64") for name in self})
 
     def __len__(self) -> int:
         return len(_oriel.column_names())

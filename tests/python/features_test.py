@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 import oriel
-from support import HOUSE, FolderTest, run
+from support import HOUSE, FolderTest, imported, run
 
 BOX = ["xmin_m", "ymin_m", "zmin_m", "xmax_m", "ymax_m", "zmax_m"]
 
@@ -130,14 +130,31 @@ class FeaturesTest(FolderTest):
         with self.assertRaises(KeyError):
             lists[len(lists)]
 
-    def test_pandas_takes_the_columns(self):
-        try:
-            import pandas
-        except ImportError:
-            self.skipTest("pandas is not installed")
+    def test_no_mapping_is_taken_for_its_keys(self):
         features = oriel.features(oriel.label(HOUSE))
-        frame = pandas.DataFrame(dict(features))
-        self.assertEqual(frame.shape, (features.count, len(features)))
+        for mapping in (features, features.relations, features.relations["contains"]):
+            with self.assertRaisesRegex(TypeError, "call to_pandas()"):
+                np.asarray(mapping)
+            with self.assertRaisesRegex(TypeError, "call to_pandas()"):
+                imported("pandas").DataFrame(mapping)
+
+    def test_pandas_has_the_columns_with_their_types(self):
+        pandas = imported("pandas")
+        features = oriel.features(oriel.label(HOUSE))
+        frame = features.to_pandas()
+        self.assertEqual(list(frame), list(features))
+        types = {"text": "string", "count": "Int64", "yes/no": "boolean"}
+        for name, attribute in oriel.schema.items():
+            self.assertEqual(str(frame[name].dtype), types.get(attribute.unit, "float64"), name)
+        for name, column in features.items():
+            if column.dtype.kind == "U":
+                self.assertEqual(list(frame[name].fillna("")), list(column), name)
+            else:
+                np.testing.assert_array_equal(frame[name].astype("Float64").to_numpy(float, na_value=np.nan), column, name)
+        self.assertTrue(frame["label"].isna().any() and frame["storey"].isna().any())
+        nothing = oriel.features([]).to_pandas()
+        pandas.testing.assert_series_equal(nothing.dtypes, frame.dtypes)
+        self.assertEqual(len(nothing), 0)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 """What the tests of the Python module share: the command beside it, samples, and folders that vanish."""
+import importlib
 import os
 import pathlib
 import subprocess
@@ -21,6 +22,14 @@ OPEN_CUBE = ('{"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"t
 
 def stripped_samples():
     return sorted(SAMPLES.glob("*.stripped.city.json"))
+
+
+def imported(module):
+    """A module that is no part of what oriel needs; without it the test is skipped."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        raise unittest.SkipTest(f"{module} is not installed") from None
 
 
 def run(*words, command=COMMAND):
