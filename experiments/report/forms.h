@@ -26,7 +26,8 @@ std::string svg_of(const Chart& chart);
 /// report.md, which shows figures/NAME.svg.
 std::string markdown_of(const ExperimentResults& results,
                         const std::vector<ReportSection>& sections);
-/// tables.tex: a table environment for each table, for the package booktabs.
+/// tables.tex: a table environment for each table, for the packages booktabs
+/// and graphicx; what is wider than the text is made as wide as it.
 std::string latex_of(const ExperimentResults& results, const std::vector<ReportSection>& sections);
 /// report.html: one file with all that it needs.
 std::string html_of(const ExperimentResults& results, const std::vector<ReportSection>& sections);

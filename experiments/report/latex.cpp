@@ -15,6 +15,9 @@ std::string escaped_latex(const std::string& text) {
     if (shown.compare(at, 3, "–") == 0) {
       out += "--";
       at += 2;
+    } else if (c == '-' && (at == 0 || shown[at - 1] == ' ' || shown[at - 1] == '[') &&
+               shown[at + 1] >= '0' && shown[at + 1] <= '9') {
+      out += "$-$";  // of a number; else it is a hyphen
     } else if (c == '\\') {
       out += "\\textbackslash{}";
     } else if (c == '~' || c == '^') {
@@ -44,19 +47,21 @@ void append_latex_table(std::string& out, const ReportTable& table, const std::s
   out +=
       fmt::format("\\begin{{table}}\n  \\centering\n  \\caption{{{}. {}}}\n  \\label{{tab:{}}}\n",
                   escaped_latex(table.title), escaped_latex(table.caption), label);
-  out += fmt::format("  \\begin{{tabular}}{{{}}}\n    \\toprule\n",
-                     std::string(table.header.size(), 'l'));
+  out += fmt::format(
+      "  \\resizebox{{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}}{{!}}{{%\n"
+      "  \\begin{{tabular}}{{{}}}\n    \\toprule\n",
+      std::string(table.header.size(), 'l'));
   append_latex_row(out, table.header);
   out += "    \\midrule\n";
   for (const auto& row : table.rows) append_latex_row(out, row);
-  out += "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n\n";
+  out += "    \\bottomrule\n  \\end{tabular}}\n\\end{table}\n\n";
 }
 
 }  // namespace
 
 std::string latex_of(const ExperimentResults& results, const std::vector<ReportSection>& sections) {
-  std::string out =
-      fmt::format("% {}: tables for \\usepackage{{booktabs}}.\n\n", escaped_latex(results.name));
+  std::string out = fmt::format("% {}: tables for \\usepackage{{booktabs,graphicx}}.\n\n",
+                                escaped_latex(results.name));
   for (const ReportSection& section : sections)
     for (std::size_t i = 0; i < section.tables.size(); ++i)
       append_latex_table(

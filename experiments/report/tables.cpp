@@ -96,8 +96,10 @@ ReportTable table_of_params(const RunGroup& group) {
     table.caption += fmt::format(" Without any effect here: {}.", fmt::join(idle, ", "));
   table.header = {"param", "best",     "macro-F1",   "difference", "p",
                   "worst", "macro-F1", "difference", "p"};
-  for (const ParamExtremes& param : extremes_of(group)) {
-    if (std::ranges::find(idle, param.name) != idle.end()) continue;
+  const std::vector<ParamExtremes> params = extremes_of(group);
+  for (const ParamExtremes& param : params) {
+    // A table of no rows would say less than one of params that change nothing.
+    if (idle.size() < params.size() && std::ranges::find(idle, param.name) != idle.end()) continue;
     table.rows.push_back({param.name});
     for (const MeasuredRun* run : {param.best, param.worst})
       for (const std::string& cell :
@@ -176,11 +178,13 @@ ReportTable table_of_classes(const RunGroup& group) {
 }
 
 std::vector<ReportTable> tables_of_sweep(const RunGroup& group) {
+  const std::size_t variables = by_variable(group).size();
+  if (variables == 1) return {table_of_runs(group, runs_of(group))};
   std::vector<const MeasuredRun*> joint;
   for (const MeasuredRun& run : group.runs)
     if (run.setting().variable.empty() && !run.setting().is_baseline) joint.push_back(&run);
   std::vector<ReportTable> tables;
-  if (!by_variable(group).empty()) tables.push_back(table_of_params(group));
+  if (variables > 0) tables.push_back(table_of_params(group));
   if (!joint.empty()) tables.push_back(table_of_best(group, joint));
   return tables;
 }

@@ -142,6 +142,45 @@ TEST_SUITE("report") {
     CHECK(page.find(parapet) < page.find(low));
   }
 
+  TEST_CASE("a sweep of one param has a line for each of its values") {
+    for (const double worst : {0.8, 0.9}) {  // with and without an effect
+      CAPTURE(worst);
+      ExperimentResults results;
+      results.name = "sweep";
+      add_run(results, ExperimentPart::sweep, {"as it is", "", {}, "", true}, 0.9, 0.9);
+      add_run(results, ExperimentPart::sweep, {"step = 1 m", "step", 1, "m", false}, 0.9, 0.9);
+      add_run(results, ExperimentPart::sweep, {"step = -2 m", "step", -2, "m", false}, worst, 0.9);
+      const auto files = report_files(results);
+      const std::string& page = text_of(files, "report.md");
+      for (const char* run : {"| as it is | 0.900 ", "| step = 1 m | 0.900 ", "| step = -2 m | "})
+        CHECK(count_of(page, run) == 1);
+      const std::string& latex = text_of(files, "tables.tex");
+      CHECK(count_of(latex, "\\\\\n") == 4);
+      CHECK(has(latex, "step = $-$2 m & "));
+    }
+  }
+
+  TEST_CASE("a sweep of params without any effect lists them all") {
+    ExperimentResults results;
+    results.name = "sweep";
+    add_run(results, ExperimentPart::sweep, {"as it is", "", {}, "", true}, 0.9, 0.9);
+    for (const std::string name : {"a", "b"})
+      add_run(results, ExperimentPart::sweep, {name + " = 1", name, 1, "", false}, 0.9, 0.9);
+    const std::string page = text_of(report_files(results), "report.md");
+    CHECK(has(page, "Without any effect here: a, b."));
+    CHECK(has(page, "| a | as it is | 0.900"));
+    CHECK(has(page, "| b | as it is | 0.900"));
+  }
+
+  TEST_CASE("LaTeX has minus signs for numbers and hyphens for names and tables in the text") {
+    const std::string latex = text_of(report_files(some_results()), "tables.tex");
+    CHECK(has(latex, " & $-$0.100 [$-$0.130, $-$0.080] & 0.020 "));
+    CHECK_FALSE(has(latex, " -0."));
+    CHECK(has(latex, "macro-F1 & difference"));
+    CHECK(count_of(latex, "\\resizebox{\\ifdim\\width>\\linewidth") ==
+          count_of(latex, "\\end{tabular}}\n"));
+  }
+
   TEST_CASE("what can be taken out without any effect is named below the ablations") {
     ExperimentResults results;
     results.name = "ablate";
