@@ -3,7 +3,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-examples/install_packages.sh dpkg-dev file gdal-bin help2man
+# The programs of the last line read tables.
+examples/install_packages.sh dpkg-dev file gdal-bin help2man \
+  csvkit python3-geopandas python3-pandas
 # Pages are tested in a browser: what is there already, from Debian or elsewhere, is taken; without one these tests are skipped.
 browser=()
 for program in chromium node npm; do command -v $program >/dev/null || browser+=("$program"); done

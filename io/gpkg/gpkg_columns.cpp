@@ -103,7 +103,7 @@ void GpkgColumns::settle() {
   });
   has_rest_ = columns_.size() > kMost;
   if (has_rest_) columns_.resize(kMost);
-  std::set<std::string> taken{"fid", "geom", kRestColumn};
+  std::set<std::string> taken{"fid", "geom", "geometry", kRestColumn};  // "geometry": of GeoPandas
   place_of_.clear();
   for (GpkgColumn& column : columns_) {
     place_of_.try_emplace({column.role, column.name}, place_of_.size());

@@ -232,6 +232,15 @@ TEST_SUITE("io") {
                       "column_name = 'area_m2'") == "area of the surface in square metres");
   }
 
+  TEST_CASE("no column is called as a reader calls the geometry") {
+    const TemporaryFolder folder;
+    BoxFile box;
+    box.building = R"(,"attributes":{"Geometry":"lod2","geom":1,"geometry":"b"})";
+    const OpenedPackage package(package_of(folder, box.text()).path);
+    CHECK(package.ask("SELECT \"Geometry_2\", \"geom_2\", \"geometry_3\" FROM buildings") ==
+          "lod2|1|b");
+  }
+
   TEST_CASE("a column has the type that all values have and is text with a warning otherwise") {
     struct Case {
       std::vector<std::string> values;
