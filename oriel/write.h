@@ -39,7 +39,7 @@ void add(LabelledBuilding building, OutputRecord& output);
 /// io/writer.h says what becomes of the rest.
 std::string write(const Document& document, const OutputRecord& output);
 
-/// One record for each feature of a building, for FeatureRecordWriter (docs/formats.md): none if it
+/// One record for each feature of a building, for FeatureRecordWriter (docs/tables.md): none if it
 /// was rejected. `result` is what label() or segment() said of it, with all attributes measured.
 std::vector<FeatureRecord> feature_records(const Building& building, const PipelineResult& result);
 

@@ -83,7 +83,7 @@ class Features(_NoArray, Mapping[str, npt.NDArray[Any]]):
     """A dict of columns, one row for each feature of all buildings: NumPy arrays of doubles (NaN: missing) or of texts
     (empty: missing).
 
-    Columns are those of the command's tables of features (docs/formats.md): building, id, name, label, score ...,
+    Columns are those of the command's tables of features (docs/tables.md): building, id, name, label, score ...,
     the box as xmin_m ... zmax_m, then all attributes, whose units are in `oriel.schema`. A column is made when it is
     asked for; to_pandas() has all of them, with types.
     """

@@ -43,7 +43,7 @@ class FeaturesTest(FolderTest):
             self.assertEqual(row[field], ";".join(str(names[k]) for k in lists[i]), field)
 
     def compare_relation(self, rows, field, lists, names):
-        """Of a class such as #3/12 all members are related (docs/formats.md)."""
+        """Of a class such as #3/12 all members are related (docs/tables.md)."""
         members = {}
         for row in rows:
             members.setdefault((row["building"], row[field]), []).append(row["id"])
