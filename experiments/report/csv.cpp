@@ -43,28 +43,10 @@ std::vector<std::string> cells_of(const ResultRow& row) {
 }  // namespace
 
 std::string csv_of(const std::vector<ResultRow>& rows) {
-  std::string text;
-  append_csv_line(text, {"part",
-                         "set",
-                         "pack",
-                         "setting",
-                         "variable",
-                         "value",
-                         "unit",
-                         "baseline",
-                         "class",
-                         "true_positives",
-                         "false_positives",
-                         "false_negatives",
-                         "precision",
-                         "recall",
-                         "f1",
-                         "f1_low",
-                         "f1_high",
-                         "difference",
-                         "difference_low",
-                         "difference_high",
-                         "p"});
+  std::string text =
+      "part,set,pack,setting,variable,value,unit,baseline,class,true_positives,false_positives,"
+      "false_negatives,precision,recall,f1,f1_low,f1_high,difference,difference_low,"
+      "difference_high,p\n";
   for (const ResultRow& row : rows) append_csv_line(text, cells_of(row));
   return text;
 }

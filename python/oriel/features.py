@@ -116,7 +116,7 @@ class Features(_NoArray, Mapping[str, npt.NDArray[Any]]):
     def to_pandas(self) -> Any:
         """All columns as a pandas.DataFrame: texts are string, counts Int64, yes/no boolean, all with NA where missing;
         other numbers are float64 with NaN."""
-        import pandas
+        import pandas  # type: ignore[import]
 
         frame = pandas.DataFrame(dict(self)).replace("", None)
         types = {"count": "Int64", "yes/no": "boolean"}
