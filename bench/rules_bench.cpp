@@ -123,7 +123,7 @@ struct BareVerdict {
 
 std::size_t label_barely(const rules::Pack& pack, const bench::FacadeBuilding& building) {
   const FeatureGraph graph = relate(building);
-  rules::EvaluationContext context(pack, building.table, graph);
+  rules::EvaluationContext context(pack, rules::PackValues(pack), building.table, graph);
   rules::Labelling labelling(pack, context);
   const auto choices = labelling.run();
   const auto groups = rules::find_groups(pack, context, building.table);

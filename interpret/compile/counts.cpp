@@ -15,11 +15,6 @@ namespace oriel::rules {
 
 namespace {
 
-std::string text_of(const Class& c, const Typical& typical) {
-  const std::string high = typical.high == Typical::kNoEnd ? "" : fmt::format(" {}", typical.high);
-  return fmt::format("{} ..{} '{}' per {}", typical.low, high, c.name, typical.per);
-}
-
 /// True if there can be no more of `part` than of `whole`.
 bool is_part(const Typical& part, const Typical& whole) {
   return part.per == whole.per || whole.per == "building";
@@ -41,8 +36,8 @@ constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 
 class CountChecker {
  public:
-  CountChecker(const Pack& pack, Findings& findings)
-      : pack_(&pack), findings_(&findings), beneath_(pack.classes.size()) {
+  CountChecker(const Pack& pack, const PackValues& values, Findings& findings)
+      : pack_(&pack), values_(&values), findings_(&findings), beneath_(pack.classes.size()) {
     for (ClassId id = 0; id < static_cast<ClassId>(pack.classes.size()); ++id)
       if (at(id).parent != kNoClass)
         beneath_[static_cast<std::size_t>(at(id).parent)].push_back(id);
@@ -65,6 +60,14 @@ class CountChecker {
   [[nodiscard]] const std::vector<ClassId>& beneath(ClassId id) const {
     return beneath_[static_cast<std::size_t>(id)];
   }
+  [[nodiscard]] CountRange range_of(const Typical& typical) const {
+    return values_->count_of(*pack_, typical);
+  }
+  [[nodiscard]] std::string text_of(const Class& c, const Typical& typical) const {
+    const auto [low, high] = range_of(typical);
+    const std::string most = high == CountRange::kNoEnd ? "" : fmt::format(" {}", high);
+    return fmt::format("{} ..{} '{}' per {}", low, most, c.name, typical.per);
+  }
   [[nodiscard]] std::string place_of(const Typical& typical) const {
     const Place place = pack_->source.place(typical.span.begin);
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
@@ -73,7 +76,7 @@ class CountChecker {
   bool report_impossible(ClassId id, const Typical& typical) {
     for (ClassId above = id; above != kNoClass; above = at(above).parent)
       for (const Typical& whole : at(above).typical) {
-        if (!is_part(typical, whole) || typical.low <= whole.high) continue;
+        if (!is_part(typical, whole) || range_of(typical).low <= range_of(whole).high) continue;
         findings_->error(Code::R212, typical.span,
                          fmt::format("{} and {} ({}) exclude each other", text_of(at(id), typical),
                                      text_of(at(above), whole), place_of(whole)));
@@ -86,8 +89,8 @@ class CountChecker {
   [[nodiscard]] CountSum least_of(ClassId id, const Typical& whole) const {
     CountSum own;
     for (const Typical& typical : at(id).typical)
-      if (is_part(typical, whole) && typical.low > own.count)
-        own = {static_cast<double>(typical.low), {{id, &typical}}};
+      if (const int low = range_of(typical).low; is_part(typical, whole) && low > own.count)
+        own = {static_cast<double>(low), {{id, &typical}}};
     const CountSum sum = least_beneath(id, whole);
     return sum.count > own.count ? sum : own;
   }
@@ -101,8 +104,9 @@ class CountChecker {
   [[nodiscard]] CountSum most_of(ClassId id, const Typical& whole) const {
     CountSum own{kAnyNumber, {}};
     for (const Typical& typical : at(id).typical)
-      if (is_part(whole, typical) && typical.high != Typical::kNoEnd && typical.high < own.count)
-        own = {static_cast<double>(typical.high), {{id, &typical}}};
+      if (const int high = range_of(typical).high;
+          is_part(whole, typical) && high != CountRange::kNoEnd && high < own.count)
+        own = {static_cast<double>(high), {{id, &typical}}};
     const CountSum sum = most_beneath(id, whole);
     return sum.count < own.count ? sum : own;
   }
@@ -115,9 +119,9 @@ class CountChecker {
   }
 
   void report_sums(ClassId id, const Typical& whole) {
-    if (const CountSum least = least_beneath(id, whole); least.count > whole.high)
+    if (const CountSum least = least_beneath(id, whole); least.count > range_of(whole).high)
       report_sum(id, whole, "at least", least);
-    if (const CountSum most = most_beneath(id, whole); most.count < whole.low)
+    if (const CountSum most = most_beneath(id, whole); most.count < range_of(whole).low)
       report_sum(id, whole, "at most", most);
   }
 
@@ -151,6 +155,7 @@ class CountChecker {
   }
 
   const Pack* pack_;
+  const PackValues* values_;
   Findings* findings_;
   /// By class, those whose parent it is.
   std::vector<std::vector<ClassId>> beneath_;
@@ -182,6 +187,8 @@ std::vector<int> evidence_relations(const Pack& pack) {
   return relations;
 }
 
-void check_counts(const Pack& pack, Findings& findings) { CountChecker(pack, findings).run(); }
+void check_counts(const Pack& pack, const PackValues& values, Findings& findings) {
+  CountChecker(pack, values, findings).run();
+}
 
 }  // namespace oriel::rules

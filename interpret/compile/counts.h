@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/evaluate/pack_values.h"
 #include "interpret/language/findings.h"
 #include "interpret/pack/pack.h"
 
@@ -20,6 +21,6 @@ std::vector<int> evidence_relations(const Pack& pack);
 /// than in the building, or more than of a class above it; of the classes beneath one together more
 /// than of this one, or, where it has no features of its own, fewer. And what is never counted
 /// (R257): a class that no rule labels anything with, and counts of a pack without `evidence:`.
-void check_counts(const Pack& pack, Findings& findings);
+void check_counts(const Pack& pack, const PackValues& values, Findings& findings);
 
 }  // namespace oriel::rules

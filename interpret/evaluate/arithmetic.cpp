@@ -4,15 +4,19 @@
 
 namespace oriel::rules {
 
-std::optional<double> fold(const Pack& pack, ExprId id, std::optional<double> scale) {
+std::optional<double> fold(const Pack& pack, ExprId id, std::span<const double> params,
+                           std::optional<double> scale) {
   const Expr& expr = pack.code[static_cast<std::size_t>(id)];
   if (!is_constant(expr) || expr.type == Type::yes_no) return std::nullopt;
   if (expr.op == Op::constant) return expr.number;
-  if (expr.op == Op::parameter) return pack.params[static_cast<std::size_t>(expr.index)].value;
+  if (expr.op == Op::parameter) {
+    const auto param = static_cast<std::size_t>(expr.index);
+    return params.empty() ? pack.params[param].value : params[param];
+  }
   if (expr.op == Op::scale) return scale;
   std::vector<double> values;
   for (const ExprId arg : expr.args) {
-    const auto value = fold(pack, arg, scale);
+    const auto value = fold(pack, arg, params, scale);
     if (!value) return std::nullopt;
     values.push_back(*value);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace oriel::rules {
 
@@ -60,8 +61,10 @@ inline Truth is_similar(double x, double y, double tolerance) {
   return compare(Op::less_equal, std::abs(x - y), allowed);
 }
 
-/// The value of a constant number at the params' values: NaN if it has none (0 / 0). Nothing if it
-/// depends on a feature, or on the map's scale and no `scale` is given.
-std::optional<double> fold(const Pack& pack, ExprId expr, std::optional<double> scale = {});
+/// The value of a constant number with params at these values (empty: those that the pack states):
+/// NaN if it has none (0 / 0). Nothing if it depends on a feature, or on the map's scale and no
+/// `scale` is given.
+std::optional<double> fold(const Pack& pack, ExprId expr, std::span<const double> params = {},
+                           std::optional<double> scale = {});
 
 }  // namespace oriel::rules

@@ -54,9 +54,10 @@ void check_rows(const FeatureLinks& links, const std::string& relation, std::siz
 
 }  // namespace
 
-EvaluationContext::EvaluationContext(const Pack& pack, const FeatureTable& table,
+EvaluationContext::EvaluationContext(const Pack& pack, PackValues set, const FeatureTable& table,
                                      const FeatureGraph& graph)
-    : rows(table.rows()),
+    : values(std::move(set)),
+      rows(table.rows()),
       row_numbers(rows),
       columns(feature_schema().size()),
       relations(relation_schema().size() + pack.relations.size()),
@@ -94,8 +95,9 @@ void EvaluationContext::link(const Pack& pack, const FeatureGraph& graph) {
   }
 }
 
-EvaluationContext::EvaluationContext(const Pack& pack, const SurfaceTable& table)
-    : rows(table.rows()),
+EvaluationContext::EvaluationContext(const Pack& pack, PackValues set, const SurfaceTable& table)
+    : values(std::move(set)),
+      rows(table.rows()),
       row_numbers(rows),
       columns(surface_schema().size()),
       coded_texts_(columns.size()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/evaluate/pack_values.h"
 #include "interpret/language/expr.h"
 #include "interpret/pack/pack.h"
 #include "model/description/feature_graph.h"
@@ -60,22 +61,26 @@ struct Links {
 /// One building, laid out for evaluation: everything a pack asks for by name is found once, before
 /// the first rule is run. Refers to the table and the graph, which must outlive it.
 struct EvaluationContext {
-  EvaluationContext(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
+  EvaluationContext(const Pack& pack, PackValues values, const FeatureTable& table,
+                    const FeatureGraph& graph);
   /// The same for surfaces, of which neither relations nor classes are known.
-  EvaluationContext(const Pack& pack, const SurfaceTable& table);
+  EvaluationContext(const Pack& pack, PackValues values, const SurfaceTable& table);
   EvaluationContext(const EvaluationContext&) = delete;
   EvaluationContext& operator=(const EvaluationContext&) = delete;
 
   /// The id of a feature.
   [[nodiscard]] const std::string& id_of(int row) const { return table_->id(FeatureId{row}); }
 
+  /// May be set to others between evaluations.
+  PackValues values;
   std::size_t rows = 0;
   /// 0, 1, … rows - 1.
   std::vector<int> row_numbers;
   /// By column of feature_schema(): its numbers, or its texts as numbers of words (Pack::words,
   /// further numbers for other texts); NaN where missing. Empty where no rule asks for it.
   std::vector<std::span<const double>> columns;
-  /// By number (RelationDefinition); without lists for relations that nothing leads over.
+  /// By number (RelationDefinition), with the values that were given first; without lists for
+  /// relations that nothing leads over.
   std::vector<Links> relations;
   /// Whether a feature is of a class, by class and row, as far as it is known so far.
   std::vector<std::vector<Truth>> membership;

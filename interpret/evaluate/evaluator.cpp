@@ -23,27 +23,13 @@ double mean_of(std::vector<double>& numbers) {
 
 }  // namespace
 
-HostRange range_of(const Hosts& hosts, HostKind kind) {
-  if (kind == HostKind::wall) return hosts.wall;
-  return kind == HostKind::roof ? hosts.roof : hosts.ground;
-}
-
-HostKind kind_of_facet(const Hosts& hosts, double inclination_deg) {
-  const auto is_in = [&](HostRange r) {
-    return inclination_deg >= r.low_deg && inclination_deg <= r.high_deg;
-  };
-  if (is_in(hosts.wall)) return HostKind::wall;
-  if (is_in(hosts.roof)) return HostKind::roof;
-  return is_in(hosts.ground) ? HostKind::ground : HostKind::none;
-}
-
 double Evaluator::number(ExprId id, const FeatureRows& rows) {
   const Expr& expr = at(id);
   switch (expr.op) {
     case Op::constant:
       return expr.number;
     case Op::parameter:
-      return pack_->params[oriel::at(expr.index)].value;
+      return context_->values.params[oriel::at(expr.index)];
     case Op::scale:
       return context_->scale;
     case Op::map_length:
@@ -194,7 +180,7 @@ Truth Evaluator::any_holds(const std::vector<ExprId>& ids, const FeatureRows& ro
 Truth Evaluator::is_on(const Expr& expr, std::size_t row) const {
   const double inclination_deg = context_->columns[column_of(Attribute::host_inclination)][row];
   if (std::isnan(inclination_deg)) return Truth::unknown;
-  return truth_of(kind_of_facet(pack_->hosts, inclination_deg) ==
+  return truth_of(context_->values.kind_of_facet(inclination_deg) ==
                   static_cast<HostKind>(expr.index));
 }
 

@@ -20,12 +20,6 @@ inline FeatureRows rows_of(int row, int level = 0) {
   return rows;
 }
 
-/// What a facet of that inclination is.
-HostKind kind_of_facet(const Hosts& hosts, double inclination_deg);
-
-/// The inclinations of a kind of facet.
-HostRange range_of(const Hosts& hosts, HostKind kind);
-
 /// How the others of a quantifier answer.
 struct Tally {
   int yes = 0;
@@ -49,7 +43,10 @@ class Evaluator {
   Evaluator(const Pack& pack, const EvaluationContext& context)
       : pack_(&pack), context_(&context) {}
 
-  /// To be called when memberships or params have changed.
+  /// The values of the params.
+  [[nodiscard]] const PackValues& values() const { return context_->values; }
+
+  /// To be called when memberships or values have changed.
   void forget();
 
   /// NaN where it is unknown.

@@ -79,7 +79,7 @@ std::optional<AttributeTest> range_test(const Pack& pack, ExprId id) {
 std::optional<AttributeTest> facet_test(const Pack& pack, ExprId id) {
   const Expr& expr = at(pack, id);
   if (expr.level != 0) return std::nullopt;
-  const HostRange range = range_of(pack.hosts, static_cast<HostKind>(expr.index));
+  const AngleRange range = PackValues(pack).range_of(static_cast<HostKind>(expr.index));
   return AttributeTest{static_cast<int>(column_of(Attribute::host_inclination)),
                        {range.low_deg, range.high_deg, false, false, id, id}};
 }

@@ -1,7 +1,7 @@
 #include "interpret/explain/explain.h"
 
+#include "interpret/explain/flip.h"
 #include "interpret/explain/proof.h"
-#include "interpret/explain/what_if.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/names.h"
 #include "kernel/base/text/suggest.h"
@@ -64,8 +64,8 @@ RoundReport round_report(const Pack& pack, const rules::Choice& choice) {
   return {label.name, choice.score, choice.margin, rule.id};
 }
 
-EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence,
-                               std::vector<std::string> holders) {
+EvidenceReport evidence_report(const Pack& pack, const rules::PackValues& values,
+                               const rules::Evidence& evidence, std::vector<std::string> holders) {
   const rules::EvidenceSettings& settings = pack.decide.evidence;
   EvidenceReport report;
   report.shift = evidence.shift;
@@ -76,7 +76,7 @@ EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence
   report.company = static_cast<std::size_t>(evidence.company);
   report.holders = std::move(holders);
   std::ranges::sort(report.holders);
-  report.company_shift = settings.most * evidence.company_share();
+  report.company_shift = values.evidence * evidence.company_share();
   for (const rules::CountEvidence& count : evidence.counts) {
     const rules::Class& of = pack.classes[static_cast<std::size_t>(count.of)];
     const rules::Typical& typical = of.typical[count.typical];
@@ -84,9 +84,10 @@ EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence
     said.label = of.name;
     said.per = typical.per;
     said.others = count.others;
-    said.low = typical.low;
-    if (typical.high != rules::Typical::kNoEnd) said.high = typical.high;
-    said.shift = settings.most * count.judged;
+    const rules::CountRange range = values.count_of(pack, typical);
+    said.low = range.low;
+    if (range.high != rules::CountRange::kNoEnd) said.high = range.high;
+    said.shift = values.evidence * count.judged;
     said.place = pack.source.place(typical.span.begin);
   }
   return report;
@@ -94,15 +95,15 @@ EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence
 
 /// A decision in which the feature was weighed: what evidence says of each of its rules, and what
 /// they would have decided without it.
-void add_evidence(const Pack& pack, const rules::Labelling& labelling,
-                  const rules::Weighed& weighed, const FeatureTable& table,
-                  Explanation& explanation) {
+void add_evidence(const Pack& pack, const rules::PackValues& values,
+                  const rules::Labelling& labelling, const rules::Weighed& weighed,
+                  const FeatureTable& table, Explanation& explanation) {
   for (const rules::Evidence& evidence : weighed.evidence) {
     std::vector<std::string> holders;
     for (const int row : labelling.holders(weighed, evidence.rule))
       holders.push_back(table.id(FeatureId{row}));
     explanation.rules[static_cast<std::size_t>(evidence.rule)].evidence =
-        evidence_report(pack, evidence, std::move(holders));
+        evidence_report(pack, values, evidence, std::move(holders));
   }
   RoundReport without = round_report(pack, weighed.without);
   if (without.label != round_report(pack, weighed.with).label)
@@ -154,7 +155,7 @@ struct Explainer::State {
         table(&features),
         graph(&features_graph),
         interpretation(&said),
-        context(base->pack(), features, features_graph),
+        context(base->pack(), base->values(), features, features_graph),
         labelling(base->pack(), context),
         evaluator(base->pack(), context) {
     labelling.run();
@@ -206,20 +207,21 @@ Explanation Explainer::State::explain(Prover& prover, FeatureId feature) {
   explanation.building = table->building();
   explanation.feature = table->id(feature);
   explanation.verdict = interpretation->verdicts.at(feature.index());
-  explanation.min_score = pack.decide.min_score;
+  explanation.min_score = context.values.min_score;
   for (const Rule& rule : pack.rules)
     explanation.rules.push_back(report_of(pack, rule, evaluator, feature.value, prover));
   for (const auto& round : labelling.rounds())
     explanation.rounds.push_back(round_report(pack, round[feature.index()]));
   for (const rules::Weighed& weighed : labelling.weighed())
-    if (weighed.row == feature.value) add_evidence(pack, labelling, weighed, *table, explanation);
+    if (weighed.row == feature.value)
+      add_evidence(pack, context.values, labelling, weighed, *table, explanation);
   explanation.best = find_best(explanation.rules);
   return explanation;
 }
 
 FlipSearch Explainer::find_flip(FeatureId feature, const IsGivenUp& is_given_up) const {
-  return rules::find_flip(state_->base->pack(), *state_->table, *state_->graph, feature,
-                          is_given_up);
+  return rules::find_flip(state_->base->pack(), state_->base->values(), *state_->table,
+                          *state_->graph, feature, is_given_up);
 }
 
 std::vector<std::size_t> find_rules(const RuleBase& base, std::string_view name) {

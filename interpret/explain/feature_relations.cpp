@@ -49,7 +49,7 @@ struct FeatureRelations::State {
         table(&features),
         graph(&features_graph) {
     if (!pack.relations.empty())
-      context.emplace(with_all_relations(pack), features, features_graph);
+      context.emplace(with_all_relations(pack), base.values(), features, features_graph);
   }
 
   [[nodiscard]] bool is_hidden(std::string_view built_in) const {

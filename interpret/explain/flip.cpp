@@ -1,6 +1,9 @@
+#include "interpret/explain/flip.h"
+
 #include "interpret/explain/turning_points.h"
-#include "interpret/explain/what_if.h"
 #include "interpret/language/quantity.h"
+#include "interpret/params/find_fault.h"
+#include "interpret/relabelling/relabelling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +41,16 @@ struct Piece {
 
 class FlipFinder {
  public:
-  FlipFinder(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph, int row,
-             const IsGivenUp& is_given_up)
-      : pack_(pack), what_if_(pack, table, graph), row_(row), is_given_up_(is_given_up) {}
+  FlipFinder(const Pack& pack, const PackValues& values, const FeatureTable& table,
+             const FeatureGraph& graph, int row, const IsGivenUp& is_given_up)
+      : pack_(pack),
+        values_(values),
+        uses_(pack_),
+        affected_(pack_.params.size()),
+        relabelling_(pack_, values, uses_, table, graph),
+        rows_(table.rows()),
+        row_(row),
+        is_given_up_(is_given_up) {}
 
   FlipSearch run() {
     search();
@@ -71,7 +81,7 @@ class FlipFinder {
       return std::tuple(p.share, p.is_between, p.param, p.tried);
     });
     if (search_.is_given_up || search_.params == 0) return;
-    said_ = label_of(what_if_.label(0, pack_.params[0].value, at(row_)));
+    said_ = label_of(relabelling_.choices()[at(row_)]);
     for (const Piece& piece : pieces)
       if (piece.is_own) look_at(piece);
     search_others(pieces);
@@ -83,7 +93,7 @@ class FlipFinder {
   }
   [[nodiscard]] double share_of(std::size_t param, double value) const {
     const auto [low, high] = *pack_.params[param].range;
-    return std::abs(value - pack_.params[param].value) / (high - low);
+    return std::abs(value - values_.params[param]) / (high - low);
   }
 
   /// Cuts the range of a param at its turning points.
@@ -96,15 +106,18 @@ class FlipFinder {
     if (gives_up()) return;
     ++search_.params;
     if (param.range->first == param.range->second) return;
-    const TurningPoints points = turning_points(what_if_, number, row_);
+    const ParamTurns turns = find_turns(pack_, number);
+    const bool is_gradual = turns.is_gradual;
+    const TurningPoints points = turning_points(pack_, relabelling_.context(), number, turns, row_);
+    const double said = values_.params[number];
     for (const double end : {param.range->first, param.range->second}) {
       Bounds bounds;
-      bounds.add(param.value, points.is_gradual);
+      bounds.add(said, is_gradual);
       for (const double value : points.own) bounds.add(value, true);
-      for (const double value : points.others) bounds.add(value, points.is_gradual);
-      bounds.add(end, points.is_gradual);
-      const bool is_any = points.is_gradual || !points.own.empty() || !points.others.empty();
-      if (is_any) cut(number, bounds.towards(param.value, end), points.is_gradual, pieces);
+      for (const double value : points.others) bounds.add(value, is_gradual);
+      bounds.add(end, is_gradual);
+      const bool is_any = is_gradual || !points.own.empty() || !points.others.empty();
+      if (is_any) cut(number, bounds.towards(said, end), is_gradual, pieces);
     }
   }
 
@@ -154,7 +167,11 @@ class FlipFinder {
   std::optional<Choice> choice_at(std::size_t param, double value) {
     if (gives_up()) return std::nullopt;
     ++search_.tried;
-    return what_if_.label(param, value, at(row_));
+    const PackValues values = values_.with(pack_, param, value);
+    if (find_fault(pack_, values)) return std::nullopt;
+    auto& affected = affected_[param];
+    if (!affected) affected = uses_.affected_by({&param, 1});
+    return relabelling_.choices(pack_, values, *affected)[at(row_)];
   }
   /// True if the pack is sound with that value and the label is another one.
   bool is_flip(std::size_t param, double value, std::optional<Choice>& choice) {
@@ -190,7 +207,7 @@ class FlipFinder {
   }
 
   void search_others(const std::vector<Piece>& pieces) {
-    const std::size_t most = kMostRelabelled / std::max<std::size_t>(1, what_if_.context().rows);
+    const std::size_t most = kMostRelabelled / std::max<std::size_t>(1, rows_);
     std::size_t tries = 0;
     for (const Piece& piece : pieces) {
       if (piece.is_own) continue;
@@ -207,7 +224,7 @@ class FlipFinder {
   void round(Found& found, std::string& text) {
     const Param& param = pack_.params[found.piece.param];
     const double edge = found.piece.is_between ? found.piece.inner : found.value;
-    const double sign = found.value < param.value ? -1 : 1;
+    const double sign = found.value < values_.params[found.piece.param] ? -1 : 1;
     const std::string unit = unit_of(param.dimension);
     const std::string space = unit.empty() ? "" : " ";
     double tens = std::pow(10, kFewestDecimals);
@@ -233,7 +250,7 @@ class FlipFinder {
     const Param& param = pack_.params[found_->piece.param];
     flip.param = param.name;
     flip.place = pack_.source.place(param.span.begin);
-    flip.from = param.value;
+    flip.from = values_.params[found_->piece.param];
     flip.to = found_->value;
     flip.from_text = write(flip.from, param.dimension);
     if (found_->choice.rule < 0) return flip;
@@ -244,8 +261,14 @@ class FlipFinder {
     return flip;
   }
 
-  const Pack& pack_;
-  WhatIf what_if_;
+  /// With the expressions that turning points need.
+  Pack pack_;
+  const PackValues& values_;
+  RuleUses uses_;
+  /// By param, as soon as it was asked.
+  std::vector<std::optional<RuleUses::Affected>> affected_;
+  Relabelling relabelling_;
+  std::size_t rows_;
   int row_;
   const IsGivenUp& is_given_up_;
   ClassId said_ = kNoClass;
@@ -255,9 +278,9 @@ class FlipFinder {
 
 }  // namespace
 
-FlipSearch find_flip(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph,
-                     FeatureId feature, const IsGivenUp& is_given_up) {
-  return FlipFinder(pack, table, graph, feature.value, is_given_up).run();
+FlipSearch find_flip(const Pack& pack, const PackValues& values, const FeatureTable& table,
+                     const FeatureGraph& graph, FeatureId feature, const IsGivenUp& is_given_up) {
+  return FlipFinder(pack, values, table, graph, feature.value, is_given_up).run();
 }
 
 }  // namespace oriel::rules

@@ -161,7 +161,7 @@ void Prover::judge_tally(const Expr& comparison, ConditionReport& report) {
 void Prover::judge_tally(const ScoreTerm& term, TermReport& report) {
   if (context_ == nullptr || at(term.value).op != Op::count || !term.rise) return;
   const double count = number(term.value);
-  if (count < fold(*pack_, term.rise->to).value_or(kUnknown)) add_nearest(at(term.value), report);
+  if (count < number(term.rise->to)) add_nearest(at(term.value), report);
 }
 
 }  // namespace oriel::rules

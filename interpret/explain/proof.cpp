@@ -244,7 +244,7 @@ void Prover::similarity(const Expr& expr, ConditionReport& report) {
 
 void Prover::facet(const Expr& expr, ConditionReport& report) {
   const auto kind = static_cast<HostKind>(expr.index);
-  const HostRange range = range_of(pack_->hosts, kind);
+  const AngleRange range = evaluator_->values().range_of(kind);
   const auto found = table_->number(feature_of(expr), Attribute::host_inclination);
   constexpr Dimension kAngle{0, 1};
   report.value = "host_inclination is " + (found ? write(*found, kAngle) : "?");
@@ -289,8 +289,8 @@ TermReport Prover::term(const ScoreTerm& term) {
   report.value = show_named(term.value, kUnknown);
   const auto describe = [&](const char* verb, const std::optional<Ramp>& ramp) {
     if (!ramp) return;
-    const double from = fold(*pack_, ramp->from).value_or(kUnknown);
-    const double to = fold(*pack_, ramp->to).value_or(kUnknown);
+    const double from = number(ramp->from);
+    const double to = number(ramp->to);
     report.bound += fmt::format("{}{} {} .. {}", report.bound.empty() ? "" : ", ", verb,
                                 write(from, dimension, to), write(to, dimension, from));
   };

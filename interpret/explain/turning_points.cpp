@@ -35,7 +35,7 @@ class TurnFinder {
       relations_[0] = root_of(relation.within);
       visit(relation.where);
     }
-    for (const ExprId id : {pack_.decide.min_score_of, pack_.decide.evidence.most_of})
+    for (const ExprId id : {pack_.decide.min_score, pack_.decide.evidence.most})
       is_gradual_ = is_gradual_ || depends_on(pack_, id, param_, true);
     return std::move(turns_);
   }
@@ -175,13 +175,15 @@ std::vector<AskedFeatures> features_of(const Pack& pack, const Turn& turn,
 /// How far the sides of one turn are apart at values of the param.
 class Differences {
  public:
-  Differences(Pack& pack, const EvaluationContext& context, std::size_t param)
-      : pack_(pack), param_(param), evaluator_(pack_, context) {}
+  Differences(const Pack& pack, EvaluationContext& context, std::size_t param)
+      : pack_(pack),
+        value_(context.values.params[param]),
+        param_(param),
+        evaluator_(pack_, context) {}
 
   void add_to(TurningPoints& points, const Turn& turn, std::span<const AskedFeatures> asked) {
-    const Param& param = pack_.params[param_];
-    const auto [low, high] = *param.range;
-    const double said = param.value;
+    const auto [low, high] = *pack_.params[param_].range;
+    const double said = value_;
     const auto at_low = differences(turn, asked, low);
     const auto at_high = differences(turn, asked, high);
     const auto at_said = differences(turn, asked, said);
@@ -202,7 +204,7 @@ class Differences {
   };
 
   void set(double value) {
-    pack_.params[param_].value = value;
+    value_ = value;
     evaluator_.forget();
   }
 
@@ -246,7 +248,9 @@ class Differences {
     return s.y;
   }
 
-  Pack& pack_;
+  const Pack& pack_;
+  /// That of the param.
+  double& value_;
   std::size_t param_;
   Evaluator evaluator_;
 };
@@ -267,26 +271,14 @@ ParamTurns find_turns(Pack& pack, std::size_t param) {
   return found;
 }
 
-std::vector<double> turning_values(Pack& pack, const EvaluationContext& context, std::size_t param,
-                                   const ParamTurns& turns) {
+TurningPoints turning_points(const Pack& pack, EvaluationContext& context, std::size_t param,
+                             const ParamTurns& turns, int row) {
   TurningPoints points;
   Differences differences(pack, context, param);
   for (const Turn& turn : turns.turns)
-    differences.add_to(points, turn, features_of(pack, turn, context, -1));
-  points.own.insert(points.own.end(), points.others.begin(), points.others.end());
+    differences.add_to(points, turn, features_of(pack, turn, context, row));
   tidy(points.own, *pack.params[param].range);
-  return std::move(points.own);
-}
-
-TurningPoints turning_points(WhatIf& what_if, std::size_t param, int row) {
-  const ParamTurns found = find_turns(what_if.pack(), param);
-  TurningPoints points;
-  points.is_gradual = found.is_gradual;
-  Differences differences(what_if.pack(), what_if.context(), param);
-  for (const Turn& turn : found.turns)
-    differences.add_to(points, turn, features_of(what_if.pack(), turn, what_if.context(), row));
-  tidy(points.own, *what_if.pack().params[param].range);
-  tidy(points.others, *what_if.pack().params[param].range);
+  tidy(points.others, *pack.params[param].range);
   return points;
 }
 

@@ -8,11 +8,11 @@ namespace oriel::rules {
 
 namespace {
 
-bool beats(const Pack& pack, const Candidate& p, const Candidate& q) {
+bool beats(const Pack& pack, const PackValues& values, const Candidate& p, const Candidate& q) {
   const Rule& p_rule = pack.rules[oriel::at(p.rule)];
   const Rule& q_rule = pack.rules[oriel::at(q.rule)];
-  const bool is_p_enough = p.total() >= pack.decide.min_score;
-  const bool is_q_enough = q.total() >= pack.decide.min_score;
+  const bool is_p_enough = p.total() >= values.min_score;
+  const bool is_q_enough = q.total() >= values.min_score;
   if (is_p_enough != is_q_enough) return is_p_enough;
   if (p_rule.priority != q_rule.priority) return p_rule.priority > q_rule.priority;
   if (p.total() != q.total()) return p.total() > q.total();
@@ -21,13 +21,16 @@ bool beats(const Pack& pack, const Candidate& p, const Candidate& q) {
 
 }  // namespace
 
-void sort_candidates(const Pack& pack, std::vector<Candidate>& candidates) {
-  std::ranges::sort(candidates,
-                    [&](const Candidate& p, const Candidate& q) { return beats(pack, p, q); });
+void sort_candidates(const Pack& pack, const PackValues& values,
+                     std::vector<Candidate>& candidates) {
+  std::ranges::sort(candidates, [&](const Candidate& p, const Candidate& q) {
+    return beats(pack, values, p, q);
+  });
 }
 
-Choice choose(const Pack& pack, const std::vector<Candidate>& candidates) {
-  if (candidates.empty() || candidates.front().total() < pack.decide.min_score) return {};
+Choice choose(const Pack& pack, const PackValues& values,
+              const std::vector<Candidate>& candidates) {
+  if (candidates.empty() || candidates.front().total() < values.min_score) return {};
   const Candidate& best = candidates.front();
   const Rule& winner = pack.rules[oriel::at(best.rule)];
   const double score = std::clamp(best.total(), 0.0, 1.0);
@@ -38,7 +41,7 @@ Choice choose(const Pack& pack, const std::vector<Candidate>& candidates) {
     if (choice.runner_up < 0) choice.runner_up = other.rule;
     if (rival.priority != winner.priority) continue;
     choice.margin = std::min(choice.margin, best.total() - other.total());
-    choice.is_ambiguous = choice.margin < pack.decide.ambiguous_below;
+    choice.is_ambiguous = choice.margin < values.ambiguous_below;
   }
   return choice;
 }

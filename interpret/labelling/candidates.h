@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/evaluate/pack_values.h"
 #include "interpret/pack/pack.h"
 
 #include <vector>
@@ -31,9 +32,10 @@ struct Choice {
 };
 
 /// Sorts candidates by what wins: enough score, then priority, then score, then the rule's id.
-void sort_candidates(const Pack& pack, std::vector<Candidate>& candidates);
+void sort_candidates(const Pack& pack, const PackValues& values,
+                     std::vector<Candidate>& candidates);
 
 /// What is decided among sorted candidates.
-Choice choose(const Pack& pack, const std::vector<Candidate>& candidates);
+Choice choose(const Pack& pack, const PackValues& values, const std::vector<Candidate>& candidates);
 
 }  // namespace oriel::rules

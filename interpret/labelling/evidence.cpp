@@ -15,9 +15,8 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The least evidence that could turn what the rules alone decide; it may reach `most`.
-double distance_to_turn(const Pack& pack, const std::vector<Candidate>& candidates,
-                        const Choice& choice) {
-  const double min_score = pack.decide.min_score;
+double distance_to_turn(const Pack& pack, double min_score,
+                        const std::vector<Candidate>& candidates, const Choice& choice) {
   double distance = kNever;
   if (choice.rule < 0) {
     for (const Candidate& candidate : candidates)
@@ -47,7 +46,7 @@ void for_each_other(const Links& links, int row, Visit visit) {
   }
 }
 
-int judge_count(const Typical& typical, int others) {
+int judge_count(const CountRange& typical, int others) {
   if (others < typical.low) return 1;
   return others >= typical.high ? -1 : 0;
 }
@@ -83,7 +82,7 @@ std::vector<Weighed> JointPass::run() {
     Weighed& one = weighed.emplace_back();
     one.row = close.row;
     one.without = without_[oriel::at(close.row)];
-    one.with = choose(*pack_, candidates);
+    one.with = choose(*pack_, context_->values, candidates);
     for (const Candidate& candidate : candidates)
       if (is_contender(close.row, candidate)) one.evidence.push_back(weigh(candidate));
   }
@@ -111,9 +110,9 @@ void JointPass::find_close(int row) {
   const auto& candidates = (*candidates_)[oriel::at(row)];
   if (candidates.empty()) return;
   Choice& choice = without_[oriel::at(row)];
-  choice = choose(*pack_, candidates);
-  const double distance = distance_to_turn(*pack_, candidates, choice);
-  if (distance < pack_->decide.evidence.most) close_.push_back({row, distance});
+  choice = choose(*pack_, context_->values, candidates);
+  const double distance = distance_to_turn(*pack_, context_->values.min_score, candidates, choice);
+  if (distance < context_->values.evidence) close_.push_back({row, distance});
 }
 
 void JointPass::sort_close() {
@@ -136,7 +135,7 @@ bool JointPass::is_contender(int row, const Candidate& candidate) const {
 ClassId JointPass::label_of(int row) const {
   const auto& candidates = (*candidates_)[oriel::at(row)];
   const bool is_enough =
-      !candidates.empty() && candidates.front().total() >= pack_->decide.min_score;
+      !candidates.empty() && candidates.front().total() >= context_->values.min_score;
   return is_enough ? rule(candidates.front()).label : (*decided_)[oriel::at(row)];
 }
 
@@ -174,7 +173,7 @@ bool JointPass::reconsider(int row) {
   auto& candidates = (*candidates_)[oriel::at(row)];
   for (Candidate& candidate : candidates)
     if (is_contender(row, candidate)) candidate.evidence = weigh(candidate).shift;
-  sort_candidates(*pack_, candidates);
+  sort_candidates(*pack_, context_->values, candidates);
   const ClassId label = label_of(row);
   const ClassId before = labels_[oriel::at(row)];
   set_label(row, label);
@@ -230,7 +229,7 @@ Evidence JointPass::weigh(const Candidate& candidate) const {
   ask_counts(rule(candidate).label, evidence);
   double sum = evidence.company_share();
   for (const CountEvidence& counted : evidence.counts) sum += counted.judged;
-  evidence.shift = pack_->decide.evidence.most * std::clamp(sum, -1.0, 1.0);
+  evidence.shift = context_->values.evidence * std::clamp(sum, -1.0, 1.0);
   return evidence;
 }
 
@@ -248,7 +247,8 @@ void JointPass::ask_counts(ClassId label, Evidence& evidence) const {
         if (tallied.all == 0) continue;
         others = count(tallied, of);
       }
-      evidence.counts.push_back({of, i, others, judge_count(all[i], others)});
+      evidence.counts.push_back(
+          {of, i, others, judge_count(context_->values.count_of(*pack_, all[i]), others)});
     }
   }
 }

@@ -32,23 +32,22 @@ std::vector<Verdict> verdicts_of(const rules::Pack& pack, std::span<const rules:
   return verdicts;
 }
 
-Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTable& table) {
+Issue ambiguity(double below, const Verdict& verdict, const FeatureTable& table) {
   Issue issue;
   issue.severity = Severity::note;
   issue.code = Code::R260;
-  issue.sentence =
-      fmt::format("{} {:.2f} is close to {}: margin {:.2f} < {:.2f}", verdict.label, verdict.score,
-                  verdict.runner_up.text(), verdict.margin, pack.decide.ambiguous_below);
+  issue.sentence = fmt::format("{} {:.2f} is close to {}: margin {:.2f} < {:.2f}", verdict.label,
+                               verdict.score, verdict.runner_up.text(), verdict.margin, below);
   issue.place.building = table.building();
   issue.place.feature = table.id(verdict.feature);
   return issue;
 }
 
-void add_ambiguities(const rules::Pack& pack, std::span<const rules::Choice> choices,
+void add_ambiguities(double below, std::span<const rules::Choice> choices,
                      const FeatureTable& table, Interpretation& said) {
   for (std::size_t row = 0; row < choices.size(); ++row)
     if (choices[row].is_ambiguous)
-      said.issues.push_back(ambiguity(pack, said.verdicts[row], table));
+      said.issues.push_back(ambiguity(below, said.verdicts[row], table));
 }
 
 /// Ids are sorted, so that the sentence does not depend on the order of features.
@@ -71,12 +70,13 @@ Issue unsettled(const std::string& what, const std::vector<int>& rows, const Fea
 Interpretation interpret(const RuleBase& base, const FeatureTable& table,
                          const FeatureGraph& graph) {
   const rules::Pack& pack = base.pack();
-  rules::EvaluationContext context(pack, table, graph);
+  rules::EvaluationContext context(pack, base.values(), table, graph);
   rules::Labelling labelling(pack, context);
   const auto choices = labelling.run();
   Interpretation result;
   result.verdicts = verdicts_of(pack, choices);
-  if (pack.decide.ambiguous_below > 0) add_ambiguities(pack, choices, table, result);
+  if (const double below = context.values.ambiguous_below; below > 0)
+    add_ambiguities(below, choices, table, result);
   result.groups = rules::find_groups(pack, context, table);
   if (const auto rows = labelling.unsettled(); !rows.empty())
     result.issues.push_back(unsettled(counted(pack.rounds, "round"), rows, table));

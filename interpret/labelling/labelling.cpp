@@ -181,8 +181,8 @@ void Labelling::run_decision(const RuleStep& step) {
   evaluator_.forget();
   for (const int id : step.rules) unknown_rows_[oriel::at(rule(id).label)].clear();
   for (const int id : step.rules) collect(id);
-  for (auto& candidates : candidates_) sort_candidates(*pack_, candidates);
-  if (pack_->decide.evidence.most > 0) weigh_evidence();
+  for (auto& candidates : candidates_) sort_candidates(*pack_, context_->values, candidates);
+  if (context_->values.evidence > 0) weigh_evidence();
   for (std::size_t row = 0; row < candidates_.size(); ++row) {
     if (candidates_[row].empty()) continue;
     decide(row);
@@ -238,7 +238,7 @@ std::vector<int> Labelling::holders(const Weighed& weighed, int rule_id) const {
 }
 
 void Labelling::decide(std::size_t row) {
-  const Choice choice = choose(*pack_, candidates_[row]);
+  const Choice choice = choose(*pack_, context_->values, candidates_[row]);
   if (choice.rule < 0) return;
   choices_[row] = choice;
   decided_[row] = rule(choice.rule).label;

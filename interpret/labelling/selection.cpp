@@ -56,7 +56,7 @@ std::vector<FeatureId> FeatureSelection::find(const FeatureTable& table,
                                               const FeatureGraph& graph) const {
   std::vector<FeatureId> found;
   const rules::Pack& pack = rules_.pack();
-  rules::EvaluationContext context(pack, table, graph);
+  rules::EvaluationContext context(pack, rules_.values(), table, graph);
   if (context.rows == 0 || pack.rules.empty()) return found;
   rules::Labelling(pack, context).run();
   rules::Evaluator evaluator(pack, context);

@@ -2,7 +2,6 @@
 
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
-#include "interpret/relabelling/changed_pack.h"
 #include "interpret/relabelling/relabelling.h"
 #include "interpret/relabelling/rule_uses.h"
 #include "kernel/base/index.h"
@@ -16,8 +15,8 @@ namespace oriel {
 
 namespace {
 
-using rules::ChangedPack;
-using rules::PackChange;
+using rules::Ablation;
+using rules::PackValues;
 using rules::RuleUses;
 
 /// Samples that are counted in one piece with one copy of the pack: so many, unless there are few.
@@ -29,14 +28,6 @@ LabelSet labels_of(const RuleBase& rules, std::span<const Sample> samples) {
   labels.add(rules.labels());
   for (const Sample& sample : samples) labels.add(sample.truth);
   return labels;
-}
-
-PackChange change_of(const rules::Pack& pack, const Variant& variant) {
-  PackChange change;
-  for (const ParamValue& value : variant.params)
-    change.params.emplace_back(at(rules::index_of(pack.params, value.name)), value.value);
-  change.without = variant.without;
-  return change;
 }
 
 /// What is wrong with the variants, each at its name.
@@ -94,13 +85,20 @@ class VariantCounter {
   VariantCounter(const RuleBase& rules, std::span<const Variant> variants,
                  std::span<const Sample> samples, const ScoreOptions& options, bool keeps_labels)
       : pack_(rules.pack()),
+        variants_(variants),
+        values_(rules.values()),
         samples_(samples),
         options_(options),
         uses_(pack_),
         counts_(variants.size(), samples, labels_of(rules, samples), keeps_labels) {
     for (const Variant& variant : variants) {
-      changes_.push_back(change_of(pack_, variant));
-      affected_.push_back(uses_.affected_by(changes_.back()));
+      auto& params = params_.emplace_back(values_.params);
+      std::vector<std::size_t> set;
+      for (const ParamValue& value : variant.params) {
+        set.push_back(at(rules::index_of(pack_.params, value.name)));
+        params[set.back()] = value.value;
+      }
+      affected_.push_back(uses_.affected_by(set, variant.without));
     }
     for (const rules::Class& c : pack_.classes)
       label_of_class_.push_back(counts_.labels_.find(c.name));
@@ -110,21 +108,24 @@ class VariantCounter {
     const std::size_t share =
         std::clamp<std::size_t>(samples_.size() / kLeastShares, 1, kMostInShare);
     for_each((samples_.size() + share - 1) / share, [&](std::size_t number) {
-      ChangedPack changed(pack_);
+      Ablation pack(pack_);
       const std::size_t end = std::min(samples_.size(), (number + 1) * share);
-      for (std::size_t sample = number * share; sample < end; ++sample) count(sample, changed);
+      for (std::size_t sample = number * share; sample < end; ++sample) count(sample, pack);
     });
     return std::move(counts_);
   }
 
  private:
-  void count(std::size_t number, ChangedPack& changed) {
+  void count(std::size_t number, Ablation& ablation) {
     const Sample& sample = samples_[number];
-    rules::Relabelling relabelling(pack_, uses_, sample.features.table, sample.features.graph);
+    rules::Relabelling relabelling(pack_, values_, uses_, sample.features.table,
+                                   sample.features.graph);
     LabelCounter counter(sample, counts_.labels_, options_);
-    for (std::size_t variant = 0; variant < changes_.size(); ++variant) {
-      changed.become(changes_[variant]);
-      count(variant, number, relabelling.choices(changed.pack(), affected_[variant]), counter);
+    for (std::size_t variant = 0; variant < variants_.size(); ++variant) {
+      const rules::Pack& pack = ablation.without(variants_[variant].without);
+      count(variant, number,
+            relabelling.choices(pack, PackValues(pack, params_[variant]), affected_[variant]),
+            counter);
     }
   }
 
@@ -152,11 +153,14 @@ class VariantCounter {
   }
 
   const rules::Pack& pack_;
+  std::span<const Variant> variants_;
+  const PackValues& values_;
   std::span<const Sample> samples_;
   const ScoreOptions& options_;
   RuleUses uses_;
   VariantCounts counts_;
-  std::vector<PackChange> changes_;
+  /// By variant.
+  std::vector<std::vector<double>> params_;
   std::vector<RuleUses::Affected> affected_;
   std::vector<int> label_of_class_;
 };

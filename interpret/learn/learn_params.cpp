@@ -133,7 +133,7 @@ class Learner {
           const IsGivenUp& is_given_up = nullptr)
       : parts_(parts.begin(), parts.end()),
         options_(options),
-        set_(rules.pack(), samples, options.objective, for_each, {}, is_given_up),
+        set_(rules, samples, options.objective, for_each, {}, is_given_up),
         base_(set_.setting()),
         all_(all_samples(samples.size())) {}
 

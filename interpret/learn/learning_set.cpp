@@ -1,5 +1,6 @@
 #include "interpret/learn/learning_set.h"
 
+#include "interpret/params/find_fault.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -31,17 +32,10 @@ std::size_t most_known(std::size_t samples) { return std::max(kLeastKnown, kMost
 
 }  // namespace
 
-/// A setting that was asked for, with a pack that has it.
+/// A setting that was asked for.
 struct LearningSet::KnownSetting {
-  KnownSetting(std::size_t known_as, Setting asked, const rules::Pack& base)
-      : number(known_as), setting(std::move(asked)), pack(base) {
-    for (std::size_t param = 0; param < setting.size(); ++param)
-      if (pack.pack().params[param].value != setting[param]) pack.set(param, setting[param]);
-  }
-
   std::size_t number;
-  Setting setting;
-  rules::SettablePack pack;
+  rules::PackValues values;
 };
 
 /// What is known of one sample, by the number of the setting; of curves by that of the param, too.
@@ -58,65 +52,50 @@ struct LearningSet::KnownOfSample {
   std::vector<Labelled> labelled;
 };
 
-/// A copy of the pack that one thread may change: at a setting, with a param besides.
-struct LearningSet::Worker {
-  explicit Worker(const rules::Pack& pack) : varied(pack) {}
-
-  void set(const Setting& setting) {
-    for (std::size_t param = 0; param < setting.size(); ++param)
-      if (varied.pack().params[param].value != setting[param]) varied.set(param, setting[param]);
-  }
-
-  rules::SettablePack varied;
-};
-
-LearningSet::LearningSet(const rules::Pack& pack, std::span<const Sample> samples,
+LearningSet::LearningSet(const RuleBase& rules, std::span<const Sample> samples,
                          Objective objective, const ForEachShare& for_each,
                          const ScoreOptions& options, IsGivenUp is_given_up)
-    : pack_(pack),
+    : pack_(rules.pack()),
+      setting_(rules.values().params),
       samples_(samples),
       objective_(std::move(objective)),
       for_each_(for_each),
       is_given_up_(for_good(std::move(is_given_up))),
-      turns_(pack.params.size()),
-      affected_(pack.params.size()),
+      turns_(pack_.params.size()),
+      affected_(pack_.params.size()),
       known_(samples.size()) {
   std::vector<std::string> names;
-  for (const rules::Class& c : pack.classes)
+  for (const rules::Class& c : pack_.classes)
     if (!c.is_abstract) names.push_back(c.name);
   labels_.add(names);
   for (const Sample& sample : samples) labels_.add(sample.truth);
-  for (const rules::Class& c : pack.classes) label_of_class_.push_back(labels_.find(c.name));
+  for (const rules::Class& c : pack_.classes) label_of_class_.push_back(labels_.find(c.name));
   for (const Sample& sample : samples) counters_.emplace_back(sample, labels_, options);
-  uses_ = std::make_unique<rules::RuleUses>(pack_.pack());
-  for (std::size_t param = 0; param < pack.params.size(); ++param) {
-    affected_[param] = uses_->affected_by({{{param, 0.0}}, {}});
-    const auto& range = pack.params[param].range;
+  uses_ = std::make_unique<rules::RuleUses>(pack_);
+  for (std::size_t param = 0; param < pack_.params.size(); ++param) {
+    affected_[param] = uses_->affected_by({&param, 1});
+    const auto& range = pack_.params[param].range;
     const bool is_idle = affected_[param].rules.empty() && !affected_[param].decides_anew;
     if (is_idle || !range || range->first == range->second) continue;
     params_.push_back(param);
-    turns_[param] = rules::find_turns(pack_.pack(), param);
+    turns_[param] = rules::find_turns(pack_, param);
   }
 }
 
 LearningSet::~LearningSet() = default;
 
-Setting LearningSet::setting() const {
-  Setting setting;
-  for (const rules::Param& param : pack().params) setting.push_back(param.value);
-  return setting;
-}
-
 std::shared_ptr<LearningSet::KnownSetting> LearningSet::known_setting(
     const Setting& setting) const {
   if (settings_.size() >= kMostSettings) settings_.clear();
   auto& known = settings_[setting];
-  if (!known) known = std::make_shared<KnownSetting>(next_setting_++, setting, pack());
+  if (!known)
+    known = std::make_shared<KnownSetting>(
+        KnownSetting{next_setting_++, rules::PackValues(pack_, setting)});
   return known;
 }
 
 bool LearningSet::is_sound(const Setting& setting) const {
-  return !known_setting(setting)->pack.find_fault();
+  return !rules::find_fault(pack_, known_setting(setting)->values);
 }
 
 void LearningSet::for_each_sample(std::span<const std::size_t> samples,
@@ -129,25 +108,6 @@ void LearningSet::for_each_sample(std::span<const std::size_t> samples,
          samples.subspan(begin, std::min(kSamplesInShare, samples.size() - begin)))
       work(sample);
   });
-}
-
-std::unique_ptr<LearningSet::Worker> LearningSet::borrow(const KnownSetting& setting) const {
-  std::unique_ptr<Worker> worker;
-  {
-    const std::scoped_lock lock(mutex_);
-    if (!idle_.empty()) {
-      worker = std::move(idle_.back());
-      idle_.pop_back();
-    }
-  }
-  if (!worker) worker = std::make_unique<Worker>(pack());
-  worker->set(setting.setting);
-  return worker;
-}
-
-void LearningSet::give_back(std::unique_ptr<Worker> worker) const {
-  const std::scoped_lock lock(mutex_);
-  idle_.push_back(std::move(worker));
 }
 
 LabelOutcome LearningSet::outcome_of(std::size_t sample,
@@ -176,9 +136,8 @@ std::vector<LabelOutcome> LearningSet::outcomes(const Setting& setting,
       return;
     }
     const DescribedBuilding& building = samples_[sample].features;
-    const rules::Pack& pack = std::as_const(asked->pack).pack();
-    rules::EvaluationContext context(pack, building.table, building.graph);
-    outcomes[sample] = outcome_of(sample, rules::Labelling(pack, context).run());
+    rules::EvaluationContext context(pack_, asked->values, building.table, building.graph);
+    outcomes[sample] = outcome_of(sample, rules::Labelling(pack_, context).run());
     if (known.size() >= most_known(samples_.size())) known.clear();
     known.emplace(asked->number, outcomes[sample]);
   });
@@ -196,18 +155,17 @@ double LearningSet::value(std::span<const LabelOutcome> outcomes,
 /// Follows one building along the range of a param.
 class CurveTracer {
  public:
-  /// `worker` stands at the setting at which `relabelling` was labelled.
+  /// `relabelling` was labelled with `values`.
   CurveTracer(const LearningSet& set, std::size_t sample, std::size_t param,
-              LearningSet::Worker& worker, rules::Relabelling& relabelling)
+              const rules::PackValues& values, rules::Relabelling& relabelling)
       : set_(set),
         sample_(sample),
         param_(param),
-        worker_(worker),
+        values_(values),
         range_(*set.pack().params[param].range),
         relabelling_(relabelling) {}
 
   ParamCurve run() {
-    const double value = worker_.varied.pack().params[param_].value;
     curve_.at_value = set_.outcome_of(sample_, relabelling_.choices());
     const rules::ParamTurns& turns = set_.turns_[param_];
     const auto bounds = find_bounds(turns);
@@ -216,7 +174,6 @@ class CurveTracer {
         trace_gradual(bounds[i], bounds[i + 1]);
       else
         add(bounds[i], outcome_at((bounds[i] + bounds[i + 1]) / 2));
-    worker_.varied.set(param_, value);
     return std::move(curve_);
   }
 
@@ -225,8 +182,9 @@ class CurveTracer {
 
   /// The ends of the range and what turns between them.
   std::vector<double> find_bounds(const rules::ParamTurns& turns) {
-    std::vector<double> values =
-        rules::turning_values(worker_.varied.pack(), relabelling_.context(), param_, turns);
+    auto [values, others] =
+        rules::turning_points(set_.pack_, relabelling_.context(), param_, turns, -1);
+    values.insert(values.end(), others.begin(), others.end());
     values.push_back(range_.first);
     values.push_back(range_.second);
     if (turns.is_gradual)
@@ -240,8 +198,8 @@ class CurveTracer {
   }
 
   const LabelOutcome& outcome_at(double value) {
-    worker_.varied.set(param_, value);
-    const auto& choices = relabelling_.choices(worker_.varied.pack(), set_.affected_[param_]);
+    const auto& choices = relabelling_.choices(set_.pack_, values_.with(set_.pack_, param_, value),
+                                               set_.affected_[param_]);
     std::vector<int> rules;
     rules.reserve(choices.size());
     for (const rules::Choice& choice : choices) rules.push_back(choice.rule);
@@ -277,7 +235,7 @@ class CurveTracer {
   const LearningSet& set_;
   std::size_t sample_;
   std::size_t param_;
-  LearningSet::Worker& worker_;
+  const rules::PackValues& values_;
   std::pair<double, double> range_;
   rules::Relabelling& relabelling_;
   ParamCurve curve_;
@@ -297,7 +255,7 @@ rules::Relabelling& LearningSet::labelled(std::size_t sample,
   if (!labelled.empty() && labelled.size() >= kMostLabelled / samples_.size())
     labelled.erase(labelled.begin());
   const DescribedBuilding& building = samples_[sample].features;
-  labelled.push_back({at, std::make_unique<rules::Relabelling>(at->pack.pack(), *uses_,
+  labelled.push_back({at, std::make_unique<rules::Relabelling>(pack_, at->values, *uses_,
                                                                building.table, building.graph)});
   return *labelled.back().relabelling;
 }
@@ -313,9 +271,8 @@ std::vector<ParamCurve> LearningSet::curves(const Setting& setting, std::size_t 
       curves[sample] = found->second;
       return;
     }
-    auto worker = borrow(*asked);
-    curves[sample] = CurveTracer(*this, sample, param, *worker, labelled(sample, asked)).run();
-    give_back(std::move(worker));
+    curves[sample] =
+        CurveTracer(*this, sample, param, asked->values, labelled(sample, asked)).run();
     if (known.size() >= most_known(samples_.size())) known.clear();
     known.emplace(key, curves[sample]);
   });

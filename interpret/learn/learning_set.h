@@ -6,7 +6,7 @@
 #include "interpret/learn/sample.h"
 #include "interpret/learn/search/param_curve.h"
 #include "interpret/pack/pack.h"
-#include "interpret/params/settable_pack.h"
+#include "interpret/pack/rule_base.h"
 #include "interpret/relabelling/relabelling.h"
 #include "interpret/relabelling/rule_uses.h"
 #include "interpret/score/score.h"
@@ -16,7 +16,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -30,21 +29,21 @@ using Setting = std::vector<double>;
 /// One thread at a time may ask. Once it is given up nothing more is measured: outcomes stay empty.
 class LearningSet {
  public:
-  LearningSet(const rules::Pack& pack, std::span<const Sample> samples, Objective objective,
+  LearningSet(const RuleBase& rules, std::span<const Sample> samples, Objective objective,
               const ForEachShare& for_each, const ScoreOptions& options = {},
               IsGivenUp is_given_up = nullptr);
   ~LearningSet();
   LearningSet(const LearningSet&) = delete;
   LearningSet& operator=(const LearningSet&) = delete;
 
-  [[nodiscard]] const rules::Pack& pack() const { return pack_.pack(); }
+  [[nodiscard]] const rules::Pack& pack() const { return pack_; }
   [[nodiscard]] std::span<const Sample> samples() const { return samples_; }
   [[nodiscard]] const LabelSet& labels() const { return labels_; }
   [[nodiscard]] const Objective& objective() const { return objective_; }
   /// The params that have a range and that a label can depend on, ascending.
   [[nodiscard]] const std::vector<std::size_t>& params() const { return params_; }
   /// The pack's own values.
-  [[nodiscard]] Setting setting() const;
+  [[nodiscard]] const Setting& setting() const { return setting_; }
 
   [[nodiscard]] bool is_given_up() const { return is_given_up_(); }
   /// False if the pack would be refused with these values.
@@ -65,7 +64,6 @@ class LearningSet {
                              std::span<const std::size_t> samples) const;
 
  private:
-  struct Worker;
   struct KnownSetting;
   struct KnownOfSample;
   friend class CurveTracer;
@@ -75,13 +73,12 @@ class LearningSet {
   [[nodiscard]] std::shared_ptr<KnownSetting> known_setting(const Setting& setting) const;
   void for_each_sample(std::span<const std::size_t> samples,
                        const std::function<void(std::size_t)>& work) const;
-  [[nodiscard]] std::unique_ptr<Worker> borrow(const KnownSetting& setting) const;
-  void give_back(std::unique_ptr<Worker> worker) const;
   [[nodiscard]] rules::Relabelling& labelled(std::size_t sample,
                                              const std::shared_ptr<const KnownSetting>& at) const;
 
   /// With the expressions that turning points need.
-  rules::SettablePack pack_;
+  rules::Pack pack_;
+  Setting setting_;
   std::span<const Sample> samples_;
   Objective objective_;
   const ForEachShare& for_each_;
@@ -96,9 +93,6 @@ class LearningSet {
   /// By sample; one thread at a time works on one of them.
   mutable std::vector<LabelCounter> counters_;
   mutable std::vector<KnownOfSample> known_;
-  /// Packs that nobody works with at the moment.
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Worker>> idle_;
   /// Settings that were asked for, and the next number of one.
   mutable std::map<Setting, std::shared_ptr<KnownSetting>> settings_;
   mutable std::size_t next_setting_ = 0;

@@ -73,8 +73,8 @@ std::string text_of(const Stump& stump) {
 }
 
 /// The pack with the condition besides.
-RuleBase with_condition(const Pack& base, const Stump& stump) {
-  auto pack = std::make_shared<Pack>(base);
+RuleBase with_condition(const RuleBase& base, const Stump& stump) {
+  auto pack = std::make_shared<Pack>(base.pack());
   const auto add = [&](Expr expr) {
     pack->code.push_back(std::move(expr));
     return static_cast<ExprId>(pack->code.size()) - 1;
@@ -94,7 +94,7 @@ RuleBase with_condition(const Pack& base, const Stump& stump) {
       numbers.push_back(at(stump.column));
   }
   pack->rules[at(stump.rule)].require.push_back(condition);
-  return RuleBase(std::move(pack));
+  return {std::move(pack), base.values(), base.sha256()};
 }
 
 /// Searches the stumps of one rule.
@@ -286,7 +286,8 @@ class Proposer {
     const rules::RuleUses uses(pack_);
     for (std::size_t s = 0; s < samples_.size() && !is_given_up_(); ++s) {
       const DescribedBuilding& building = samples_[s].features;
-      const rules::Relabelling labelled(pack_, uses, building.table, building.graph);
+      const rules::Relabelling labelled(pack_, rules_.values(), uses, building.table,
+                                        building.graph);
       std::vector<int> labels;
       for (const rules::Choice& choice : labelled.choices()) {
         const rules::ClassId id = rules::Relabelling::label_of(pack_, choice);
@@ -334,7 +335,8 @@ class Proposer {
       proposal.require = texts_of(pack_, rule.require);
       proposal.require.push_back(text_of(stump));
       proposal.unless = texts_of(pack_, rule.unless);
-      judge(std::move(proposal), outcomes_of(with_condition(pack_, stump), {&as_it_is, 1}).front());
+      judge(std::move(proposal),
+            outcomes_of(with_condition(rules_, stump), {&as_it_is, 1}).front());
     }
   }
 

@@ -1,5 +1,6 @@
 #include "interpret/pack/contents.h"
 
+#include "interpret/evaluate/pack_values.h"
 #include "interpret/pack/pack.h"
 
 #include <algorithm>
@@ -19,12 +20,16 @@ using rules::Pack;
 /// expressions only where they say the same.
 class PackComparison {
  public:
-  PackComparison(const Pack& one, const Pack& other) : one_(&one), other_(&other) {}
+  PackComparison(const RuleBase& one, const RuleBase& other)
+      : one_(&one.pack()),
+        other_(&other.pack()),
+        one_values_(one.values()),
+        other_values_(other.values()) {}
 
   [[nodiscard]] bool is_same() const {
     return is_same_hosts() && one_->rounds == other_->rounds && is_same_decide() &&
            are_same(one_->classes, other_->classes,
-                    [](const auto& p, const auto& q) { return is_same_class(p, q); }) &&
+                    [this](const auto& p, const auto& q) { return is_same_class(p, q); }) &&
            are_same(one_->relations, other_->relations,
                     [this](const auto& p, const auto& q) {
                       return p.name == q.name && p.within == q.within && is_same(p.where, q.where);
@@ -45,26 +50,25 @@ class PackComparison {
   }
 
   [[nodiscard]] bool is_same_hosts() const {
-    const auto is_same_range = [](const rules::HostRange& p, const rules::HostRange& q) {
-      return p.low_deg == q.low_deg && p.high_deg == q.high_deg;
-    };
-    const rules::Hosts &p = one_->hosts, &q = other_->hosts;
-    return is_same_range(p.wall, q.wall) && is_same_range(p.roof, q.roof) &&
-           is_same_range(p.ground, q.ground) && p.ground_reach_m == q.ground_reach_m;
+    const rules::PackValues &p = one_values_, &q = other_values_;
+    return p.wall == q.wall && p.roof == q.roof && p.ground == q.ground &&
+           p.ground_reach_m == q.ground_reach_m;
   }
 
   [[nodiscard]] bool is_same_decide() const {
     const rules::Decide &p = one_->decide, &q = other_->decide;
-    return p.min_score == q.min_score && p.ambiguous_below == q.ambiguous_below &&
+    return one_values_.min_score == other_values_.min_score &&
+           one_values_.ambiguous_below == other_values_.ambiguous_below &&
+           one_values_.evidence == other_values_.evidence &&
            p.evidence.is_written() == q.evidence.is_written() &&
-           p.evidence.most == q.evidence.most && p.evidence.company == q.evidence.company;
+           p.evidence.company == q.evidence.company;
   }
 
-  static bool is_same_class(const rules::Class& p, const rules::Class& q) {
+  [[nodiscard]] bool is_same_class(const rules::Class& p, const rules::Class& q) const {
     return p.name == q.name && p.parent == q.parent && p.is_abstract == q.is_abstract &&
-           are_same(p.typical, q.typical, [](const rules::Typical& s, const rules::Typical& t) {
-             return s.per == t.per && s.low == t.low && s.high == t.high &&
-                    s.relation == t.relation;
+           are_same(p.typical, q.typical, [&](const rules::Typical& s, const rules::Typical& t) {
+             return s.per == t.per && s.relation == t.relation &&
+                    one_values_.count_of(*one_, s) == other_values_.count_of(*other_, t);
            });
   }
 
@@ -96,8 +100,8 @@ class PackComparison {
     if (s.op != t.op || s.type != t.type || s.level != t.level || s.is_previous != t.is_previous)
       return false;
     if (s.op == Op::parameter)
-      return one_->params[static_cast<std::size_t>(s.index)].value ==
-             other_->params[static_cast<std::size_t>(t.index)].value;
+      return one_values_.params[static_cast<std::size_t>(s.index)] ==
+             other_values_.params[static_cast<std::size_t>(t.index)];
     if (s.op == Op::constant && s.type == rules::Type::text)
       return one_->words[static_cast<std::size_t>(s.number)] ==
              other_->words[static_cast<std::size_t>(t.number)];
@@ -108,6 +112,8 @@ class PackComparison {
 
   const Pack* one_;
   const Pack* other_;
+  const rules::PackValues& one_values_;
+  const rules::PackValues& other_values_;
 };
 
 }  // namespace
@@ -141,7 +147,7 @@ std::vector<Place> places_of_params(const RuleBase& base) {
 }
 
 bool is_labelling_alike(const RuleBase& one, const RuleBase& other) {
-  return PackComparison(one.pack(), other.pack()).is_same();
+  return PackComparison(one, other).is_same();
 }
 
 }  // namespace oriel

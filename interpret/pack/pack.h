@@ -5,10 +5,8 @@
 #include "kernel/base/name.h"
 #include "model/plan.h"
 
-#include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,19 +32,14 @@ struct Param {
 
 /// How many of a class there are as a rule: `typical: {per storey: 2 .. 12}`.
 struct Typical {
-  /// No most: `1 ..`.
-  static constexpr int kNoEnd = std::numeric_limits<int>::max();
-
   /// "storey", "facade" or "building".
   std::string per;
-  int low = 0;
-  int high = 0;
+  ExprId low = kNoExpr;
+  /// kNoExpr: no end.
+  ExprId high = kNoExpr;
+  SourceSpan span;
   /// The relation that leads to the others of the storey or the facade; -1: those of the building.
   int relation = -1;
-  SourceSpan span;
-  /// What they were folded from; kNoExpr: `high` has no end.
-  ExprId low_of = kNoExpr;
-  ExprId high_of = kNoExpr;
 };
 
 /// How objects of a class are written: `emit:`.
@@ -120,49 +113,32 @@ struct RuleStep {
   std::vector<int> rules;
 };
 
-/// An angle's range that makes a facet a wall, a roof or a ground; bounds included, walls first.
+/// An angle's range that makes a facet a wall, a roof or a ground; kNoExpr: it was not written.
 struct HostRange {
-  double low_deg = 0;
-  double high_deg = 0;
-  /// What they were folded from; kNoExpr: they were not written.
   ExprId low = kNoExpr;
   ExprId high = kNoExpr;
 };
 
-inline bool is_overlapping(const HostRange& p, const HostRange& q) {
-  return std::max(p.low_deg, q.low_deg) < std::min(p.high_deg, q.high_deg);
-}
-
+/// `hosts:`. What was not written is as PackValues has it.
 struct Hosts {
-  HostRange wall{75, 105};
-  HostRange roof{0, 75};
-  HostRange ground{105, 180};
-  /// A face that looks down is ground if it lies no higher than this over the building's lowest
-  /// point.
-  double ground_reach_m = 0.5;
-  /// What it was folded from; kNoExpr: it was not written.
-  ExprId ground_reach_of = kNoExpr;
+  HostRange wall, roof, ground;
+  ExprId ground_reach = kNoExpr;
 };
 
 /// How much the labels of its others count for a feature: `decide: {evidence, company}`.
 struct EvidenceSettings {
-  /// The most that a score is moved by.
-  double most = 0;
-  /// What it was folded from; kNoExpr: it was not written.
-  ExprId most_of = kNoExpr;
+  /// The most that a score is moved by; kNoExpr: it was not written.
+  ExprId most = kNoExpr;
   /// The numbers of the relations that lead to what is comparable.
   std::vector<int> company;
   SourceSpan span;
 
-  [[nodiscard]] bool is_written() const { return most_of != kNoExpr; }
+  [[nodiscard]] bool is_written() const { return most != kNoExpr; }
 };
 
 struct Decide {
-  double min_score = 0;
-  double ambiguous_below = 0;
-  /// What they were folded from; kNoExpr: they were not written.
-  ExprId min_score_of = kNoExpr;
-  ExprId ambiguous_below_of = kNoExpr;
+  ExprId min_score = kNoExpr;
+  ExprId ambiguous_below = kNoExpr;
   EvidenceSettings evidence;
 };
 

@@ -1,5 +1,6 @@
 #include "interpret/pack/pack_page.h"
 
+#include "interpret/evaluate/pack_values.h"
 #include "interpret/language/condition_words.h"
 #include "interpret/language/parser.h"
 #include "interpret/pack/names.h"
@@ -193,13 +194,15 @@ void PackPageWriter::write_classes() {
       "itself.\n");
   line("| class | | a kind of | usual numbers | written as |");
   line("|---|---|---|---|---|");
+  const PackValues values(*pack_);
   for (const Class& c : pack_->classes) {
     std::string numbers;
-    for (const Typical& typical : c.typical)
-      numbers += fmt::format(
-          "{}{} {} per {}", numbers.empty() ? "" : ", ", typical.low,
-          typical.high == Typical::kNoEnd ? "or more" : fmt::format("to {}", typical.high),
-          typical.per);
+    for (const Typical& typical : c.typical) {
+      const auto [low, high] = values.count_of(*pack_, typical);
+      numbers += fmt::format("{}{} {} per {}", numbers.empty() ? "" : ", ", low,
+                             high == CountRange::kNoEnd ? "or more" : fmt::format("to {}", high),
+                             typical.per);
+    }
     const std::string parent =
         c.parent == kNoClass
             ? ""
@@ -400,7 +403,7 @@ void PackPageWriter::write_generalise() {
 }
 
 void PackPageWriter::write_settings() {
-  const Hosts& hosts = pack_->hosts;
+  const PackValues hosts(*pack_);
   line("\n## Facets\n");
   line("A facet is by its inclination (0 deg looks up, 90 deg is a wall, 180 deg looks down):\n");
   for (const auto& [name, range] :

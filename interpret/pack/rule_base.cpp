@@ -5,6 +5,7 @@
 #include "interpret/compile/reach.h"
 #include "interpret/compile/reads.h"
 #include "interpret/compile/strata.h"
+#include "interpret/evaluate/pack_values.h"
 #include "interpret/evaluate/relations.h"
 #include "interpret/language/findings.h"
 #include "interpret/pack/embedded.h"
@@ -185,7 +186,7 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   report_unused_macros(loader);
   report_unused_params(loader);
   report_unused_relations(loader);
-  check_counts(pack, findings);
+  check_counts(pack, PackValues(pack), findings);
   find_strata(pack, findings);
   if (!findings.has_errors()) check_reach(pack, findings);
   add_default_emissions(pack);
@@ -354,11 +355,19 @@ Checked<std::string> certain(const rules::YamlNode& tree, std::string text,
 
 }  // namespace
 
+RuleBase::RuleBase(std::shared_ptr<const rules::Pack> pack)
+    : RuleBase(pack, rules::PackValues(*pack), pack->sha256) {}
+
+RuleBase::RuleBase(std::shared_ptr<const rules::Pack> pack, const rules::PackValues& values,
+                   std::string sha256)
+    : pack_(std::move(pack)),
+      values_(std::make_shared<rules::PackValues>(values)),
+      sha256_(std::move(sha256)) {}
+
 const std::string& RuleBase::name() const { return pack_->name; }
 const std::string& RuleBase::version() const { return pack_->version; }
 const std::string& RuleBase::file() const { return pack_->source.file(); }
 std::vector<std::string> RuleBase::files() const { return pack_->source.files(); }
-const std::string& RuleBase::sha256() const { return pack_->sha256; }
 const Limits& RuleBase::limits() const { return pack_->limits; }
 std::size_t RuleBase::rule_count() const { return pack_->rules.size(); }
 

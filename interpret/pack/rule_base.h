@@ -14,13 +14,17 @@ namespace oriel {
 
 namespace rules {
 struct Pack;
-}
+struct PackValues;
+}  // namespace rules
 
-/// A rule pack that was checked and is ready to be run. A handle: copies share the pack, which
-/// never changes, so that threads may use one at a time.
+/// A rule pack that was checked and is ready to be run, with values of its params. A handle: copies
+/// share the pack, which never changes, so that threads may use one at a time.
 class RuleBase {
  public:
-  explicit RuleBase(std::shared_ptr<const rules::Pack> pack) : pack_(std::move(pack)) {}
+  /// At the values that the pack states.
+  explicit RuleBase(std::shared_ptr<const rules::Pack> pack);
+  RuleBase(std::shared_ptr<const rules::Pack> pack, const rules::PackValues& values,
+           std::string sha256);
 
   /// As the pack states them.
   [[nodiscard]] const std::string& name() const;
@@ -30,8 +34,9 @@ class RuleBase {
   /// That one and the packs that it extends, the nearest first.
   [[nodiscard]] std::vector<std::string> files() const;
   /// Of the pack's text, 64 hexadecimal digits; of a pack that extends others of theirs, too: with
-  /// d the digest so far and t the next text, sha256(d + sha256(t)).
-  [[nodiscard]] const std::string& sha256() const;
+  /// d the digest so far and t the next text, sha256(d + sha256(t)). With other values as
+  /// with_params() says.
+  [[nodiscard]] const std::string& sha256() const { return sha256_; }
   /// The labels it may give, in the order of the pack.
   [[nodiscard]] std::vector<std::string> labels() const;
   [[nodiscard]] std::size_t rule_count() const;
@@ -48,9 +53,13 @@ class RuleBase {
 
   /// The inside, for interpret's own files.
   [[nodiscard]] const rules::Pack& pack() const { return *pack_; }
+  [[nodiscard]] const std::shared_ptr<const rules::Pack>& shared_pack() const { return pack_; }
+  [[nodiscard]] const rules::PackValues& values() const { return *values_; }
 
  private:
   std::shared_ptr<const rules::Pack> pack_;
+  std::shared_ptr<const rules::PackValues> values_;
+  std::string sha256_;
 };
 
 /// The pack in `text` (docs/rules.md is the language), called `file` in places. All findings come

@@ -7,7 +7,7 @@
 #include "interpret/language/quantity.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
-#include "interpret/params/settable_pack.h"
+#include "interpret/params/find_fault.h"
 #include "kernel/base/index.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/suggest.h"
@@ -232,29 +232,29 @@ Issue refused(const rules::RefusedValue& fault, const Pack& pack,
 }
 
 /// As the header says.
-std::string digest_of(const Pack& before, const Pack& after) {
+std::string digest_of(const RuleBase& before, const rules::PackValues& after) {
   std::string text;
-  for (std::size_t i = 0; i < before.params.size(); ++i)
-    if (before.params[i].value != after.params[i].value)
-      text += fmt::format("\n{}={}", after.params[i].name, exact_text(after.params[i].value));
-  return text.empty() ? before.sha256 : sha256(before.sha256 + text);
+  for (std::size_t i = 0; i < after.params.size(); ++i)
+    if (before.values().params[i] != after.params[i])
+      text += fmt::format("\n{}={}", before.pack().params[i].name, exact_text(after.params[i]));
+  return text.empty() ? before.sha256() : sha256(before.sha256() + text);
 }
 
-Checked<RuleBase> set_all(const Pack& pack, std::span<const Assigned> assigned) {
+Checked<RuleBase> set_all(const RuleBase& base, std::span<const Assigned> assigned) {
   Checked<RuleBase> result;
-  rules::SettablePack changed(pack);
+  const Pack& pack = base.pack();
+  std::vector<double> params = base.values().params;
   for (const Assigned& one : assigned) {
     if (!is_in_range(pack.params[one.param], one.value))
       result.issues.push_back(beyond_range(one, pack.params[one.param]));
-    changed.set(one.param, one.value);
+    params[one.param] = one.value;
   }
+  const rules::PackValues values(pack, std::move(params));
   if (result.issues.empty())
-    if (const auto fault = changed.find_fault())
+    if (const auto fault = rules::find_fault(pack, values))
       result.issues.push_back(refused(*fault, pack, assigned));
-  if (!result.issues.empty()) return result;
-  auto made = std::make_shared<Pack>(std::move(changed.pack()));
-  made->sha256 = digest_of(pack, *made);
-  result.value.emplace(std::move(made));
+  if (result.issues.empty())
+    result.value.emplace(base.shared_pack(), values, digest_of(base, values));
   return result;
 }
 
@@ -262,9 +262,11 @@ Checked<RuleBase> set_all(const Pack& pack, std::span<const Assigned> assigned) 
 
 std::vector<PackParam> params_of(const RuleBase& base) {
   std::vector<PackParam> params;
-  for (const Param& param : base.pack().params)
-    params.push_back(
-        {param.name, param.value, rules::unit_of(param.dimension), param.range, param.why});
+  for (std::size_t i = 0; i < base.values().params.size(); ++i) {
+    const Param& param = base.pack().params[i];
+    params.push_back({param.name, base.values().params[i], rules::unit_of(param.dimension),
+                      param.range, param.why});
+  }
   return params;
 }
 
@@ -290,7 +292,7 @@ Checked<RuleBase> with_params(const RuleBase& base, std::span<const std::string>
     const ParamValue& value = (*read.value)[i];
     assigned.push_back({at(rules::index_of(pack.params, value.name)), value.value, assignments[i]});
   }
-  return set_all(pack, assigned);
+  return set_all(base, assigned);
 }
 
 Checked<RuleBase> with_params(const RuleBase& base, std::span<const ParamValue> values) {

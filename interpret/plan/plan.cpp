@@ -111,14 +111,15 @@ std::string group_of(const rules::Pack& pack, const GeneraliseEntry& entry, Feat
   return {};
 }
 
-Step step_of(const rules::Pack& pack, const GeneraliseEntry& entry, FeatureId feature, double scale,
-             const Interpretation& interpretation) {
+Step step_of(const rules::Pack& pack, const GeneraliseEntry& entry, FeatureId feature,
+             const rules::EvaluationContext& context, const Interpretation& interpretation) {
   Step step{feature, entry.operation, entry.id};
   step.group = group_of(pack, entry, feature, interpretation);
   for (const GeneraliseEntry::Argument& argument : entry.arguments)
     if (argument.value == rules::kNoExpr)
       step.words[argument.name] = argument.word;
-    else if (const auto value = rules::fold(pack, argument.value, scale))
+    else if (const auto value =
+                 rules::fold(pack, argument.value, context.values.params, context.scale))
       step.numbers[argument.name] = *value;
   return step;
 }
@@ -207,7 +208,7 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
     throw bad_scale(scale_denominator);
   const rules::Pack& pack = base.pack();
   const std::vector<ClassId> labels = labels_of(pack, interpretation, table.rows());
-  rules::EvaluationContext context(pack, table, graph);
+  rules::EvaluationContext context(pack, base.values(), table, graph);
   context.scale = scale_denominator;
   const bool needs_classes = std::ranges::any_of(pack.entries, [&](const GeneraliseEntry& e) {
     return e.with_of != rules::kNoClass || is_asking_for_class(pack.code, e.when);
@@ -239,8 +240,8 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   result.scale = scale_denominator;
   for (std::size_t row = 0; row < chosen.size(); ++row)
     if (chosen[row] != nullptr)
-      result.steps.push_back(step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)},
-                                     scale_denominator, interpretation));
+      result.steps.push_back(
+          step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)}, context, interpretation));
   add_openings(openings_of(pack, labels), result);
   add_belonging(context, labels, chosen, result);
   return result;

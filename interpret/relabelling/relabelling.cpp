@@ -47,13 +47,14 @@ class Relabelling::Known final : public KnownJudgements {
   mutable bool has_asked_affected_ = false;
 };
 
-Relabelling::Relabelling(const Pack& pack, const RuleUses& uses, const FeatureTable& table,
-                         const FeatureGraph& graph)
+Relabelling::Relabelling(const Pack& pack, const PackValues& values, const RuleUses& uses,
+                         const FeatureTable& table, const FeatureGraph& graph)
     : pack_(&pack),
+      values_(values),
       uses_(&uses),
       table_(&table),
       graph_(&graph),
-      context_(pack, table, graph),
+      context_(pack, values, table, graph),
       judged_anew_(pack.rules.size()),
       is_anew_(pack.rules.size()) {
   choices_ = run(pack, context_, nullptr);
@@ -61,7 +62,8 @@ Relabelling::Relabelling(const Pack& pack, const RuleUses& uses, const FeatureTa
   if (pack.rounds == 0) know_judgements();
 }
 
-const EvaluationContext& Relabelling::context() {
+EvaluationContext& Relabelling::context() {
+  context_.values = values_;
   context_.membership = membership_;
   return context_;
 }
@@ -125,12 +127,13 @@ void Relabelling::keep(const RuleUses::Affected& affected, const Known& known) {
   for (const int rule : last_rules_) last_judged_.push_back(judged_anew_[oriel::at(rule)]);
 }
 
-const std::vector<Choice>& Relabelling::choices(const Pack& changed,
+const std::vector<Choice>& Relabelling::choices(const Pack& changed, const PackValues& values,
                                                 const RuleUses::Affected& affected) {
   if (affected.rules.empty() && !affected.decides_anew) return choices_;
   std::optional<EvaluationContext> related_anew;
-  if (affected.has_other_relations) related_anew.emplace(changed, *table_, *graph_);
+  if (affected.has_other_relations) related_anew.emplace(changed, values, *table_, *graph_);
   EvaluationContext& context = related_anew ? *related_anew : context_;
+  context.values = values;
   if (pack_->rounds > 0) return changed_choices_ = run(changed, context, nullptr);
   if (!ask(changed, affected, context) && !affected.decides_anew) return choices_;
   if (is_as_before(affected)) return changed_choices_;

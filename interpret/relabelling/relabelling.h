@@ -13,23 +13,24 @@
 namespace oriel::rules {
 
 /// One building that is labelled with a pack and then, again and again, with what becomes of it
-/// when the pack is changed. Only rules are asked again that say something else, or that ask for a
-/// class to which other features belong now; where nothing comes of that, no decision is made anew.
-/// Table, graph, pack and uses must outlive it.
+/// when values or the pack are changed. Only rules are asked again that say something else, or that
+/// ask for a class to which other features belong now; where nothing comes of that, no decision is
+/// made anew. Table, graph, pack and uses must outlive it.
 class Relabelling {
  public:
-  Relabelling(const Pack& pack, const RuleUses& uses, const FeatureTable& table,
-              const FeatureGraph& graph);
+  Relabelling(const Pack& pack, const PackValues& values, const RuleUses& uses,
+              const FeatureTable& table, const FeatureGraph& graph);
 
-  /// What interpret() decides for every feature with the pack as it is.
+  /// What interpret() decides for every feature with the pack and the values as they are.
   [[nodiscard]] const std::vector<Choice>& choices() const { return choices_; }
-  /// The same with a pack in which something is changed that affects that. Valid until the next
-  /// call.
-  const std::vector<Choice>& choices(const Pack& changed, const RuleUses::Affected& affected);
+  /// The same with other values, and a pack in which something is changed, that affect that. Valid
+  /// until the next call.
+  const std::vector<Choice>& choices(const Pack& changed, const PackValues& values,
+                                     const RuleUses::Affected& affected);
 
-  /// The building, with the memberships after the last rule of the pack as it is; valid until
+  /// The building, with values as they are and the memberships after the last rule; valid until
   /// choices() is asked.
-  [[nodiscard]] const EvaluationContext& context();
+  [[nodiscard]] EvaluationContext& context();
 
   /// The class that was chosen, or kNoClass.
   static ClassId label_of(const Pack& pack, const Choice& choice) {
@@ -49,6 +50,7 @@ class Relabelling {
   std::vector<Choice> run(const Pack& pack, EvaluationContext& context, const Known* known) const;
 
   const Pack* pack_;
+  PackValues values_;
   const RuleUses* uses_;
   const FeatureTable* table_;
   const FeatureGraph* graph_;

@@ -63,9 +63,9 @@ bool RuleUses::depends(ExprId id, const std::vector<bool>& params) const {
   return std::ranges::any_of(expr.args, [&](ExprId arg) { return depends(arg, params); });
 }
 
-RuleUses::Changes RuleUses::changes_of(const PackChange& change) const {
+RuleUses::Changes RuleUses::changes_of(std::span<const std::size_t> params) const {
   Changes changes{nothing_.params, nothing_.relations, false};
-  for (const auto& [param, value] : change.params) changes.params[param] = true;
+  for (const std::size_t param : params) changes.params[param] = true;
   for (const HostRange& range : {pack_->hosts.wall, pack_->hosts.roof, pack_->hosts.ground})
     changes.has_other_hosts = changes.has_other_hosts || depends(range.low, changes.params) ||
                               depends(range.high, changes.params);
@@ -75,13 +75,12 @@ RuleUses::Changes RuleUses::changes_of(const PackChange& change) const {
   return changes;
 }
 
-bool RuleUses::decides_anew(const PackChange& change, const Changes& changes) const {
+bool RuleUses::decides_anew(std::span<const DroppedPart> without, const Changes& changes) const {
   using Kind = DroppedPart::Kind;
   const auto moves = [&](ExprId id) { return depends(id, changes.params); };
   const Decide& decide = pack_->decide;
-  return moves(decide.min_score_of) || moves(decide.ambiguous_below_of) ||
-         moves(decide.evidence.most_of) ||
-         std::ranges::any_of(change.without,
+  return moves(decide.min_score) || moves(decide.ambiguous_below) || moves(decide.evidence.most) ||
+         std::ranges::any_of(without,
                              [](const DroppedPart& part) {
                                return part.kind == Kind::evidence || part.kind == Kind::company ||
                                       part.kind == Kind::typical;
@@ -90,19 +89,20 @@ bool RuleUses::decides_anew(const PackChange& change, const Changes& changes) co
                              [&](int relation) { return changes.relations[at(relation)]; }) ||
          std::ranges::any_of(pack_->classes, [&](const Class& c) {
            return std::ranges::any_of(c.typical, [&](const Typical& typical) {
-             return moves(typical.low_of) || moves(typical.high_of);
+             return moves(typical.low) || moves(typical.high);
            });
          });
 }
 
-RuleUses::Affected RuleUses::affected_by(const PackChange& change) const {
-  const Changes changes = changes_of(change);
+RuleUses::Affected RuleUses::affected_by(std::span<const std::size_t> params,
+                                         std::span<const DroppedPart> without) const {
+  const Changes changes = changes_of(params);
   Affected affected;
   affected.has_other_relations =
       std::ranges::find(changes.relations, true) != changes.relations.end();
-  affected.decides_anew = decides_anew(change, changes);
+  affected.decides_anew = decides_anew(without, changes);
   for (std::size_t i = 0; i < rules_.size(); ++i) {
-    const bool is_changed = std::ranges::any_of(change.without, [&](const DroppedPart& part) {
+    const bool is_changed = std::ranges::any_of(without, [&](const DroppedPart& part) {
       return part.owner == static_cast<int>(i) && part.kind != DroppedPart::Kind::typical;
     });
     if (!is_changed && !is_of(rules_[i], changes)) continue;

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "interpret/pack/pack.h"
-#include "interpret/relabelling/changed_pack.h"
+#include "interpret/relabelling/variant.h"
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::rules {
@@ -27,7 +28,8 @@ class RuleUses {
     /// Decisions are made otherwise even where all rules say the same.
     bool decides_anew = false;
   };
-  [[nodiscard]] Affected affected_by(const PackChange& change) const;
+  [[nodiscard]] Affected affected_by(std::span<const std::size_t> params,
+                                     std::span<const DroppedPart> without = {}) const;
 
   /// The classes that the rule asks for, ascending.
   [[nodiscard]] const std::vector<ClassId>& classes_of(int rule) const {
@@ -54,9 +56,10 @@ class RuleUses {
   };
   void add(ExprId id, Uses& uses) const;
   [[nodiscard]] static bool is_of(const Uses& uses, const Changes& changes);
-  [[nodiscard]] Changes changes_of(const PackChange& change) const;
+  [[nodiscard]] Changes changes_of(std::span<const std::size_t> params) const;
   [[nodiscard]] std::vector<ExprId> conditions_of(const Rule& rule, const Changes& changes) const;
-  [[nodiscard]] bool decides_anew(const PackChange& change, const Changes& changes) const;
+  [[nodiscard]] bool decides_anew(std::span<const DroppedPart> without,
+                                  const Changes& changes) const;
   [[nodiscard]] bool depends(ExprId id, const std::vector<bool>& params) const;
 
   const Pack* pack_;

@@ -2,10 +2,10 @@
 
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
-#include "interpret/relabelling/changed_pack.h"
 #include "kernel/base/index.h"
 #include "kernel/base/sha256.h"
 
+#include <algorithm>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -105,7 +105,72 @@ class AblationFinder {
   std::vector<Variant> found_;
 };
 
+template <class T>
+void erase_at(std::vector<T>& list, int i) {
+  list.erase(list.begin() + i);
+}
+
+void drop_condition(Pack& pack, const DroppedPart& part) {
+  auto& require = pack.rules[at(part.owner)].require;
+  if (part.part < 0) return erase_at(require, part.item);
+  rules::Expr rest = pack.code[at(require[at(part.item)])];
+  erase_at(rest.args, part.part);
+  if (rest.args.empty()) return erase_at(require, part.item);
+  pack.code.push_back(std::move(rest));
+  require[at(part.item)] = static_cast<ExprId>(pack.code.size()) - 1;
+}
+
+void drop(Pack& pack, const DroppedPart& part) {
+  using Kind = DroppedPart::Kind;
+  switch (part.kind) {
+    case Kind::rule:
+      // Any of no conditions: never.
+      pack.code.push_back({.op = rules::Op::any_of, .type = rules::Type::yes_no});
+      pack.rules[at(part.owner)].require = {static_cast<ExprId>(pack.code.size()) - 1};
+      break;
+    case Kind::condition:
+      drop_condition(pack, part);
+      break;
+    case Kind::veto:
+      erase_at(pack.rules[at(part.owner)].unless, part.item);
+      break;
+    case Kind::score_term:
+      erase_at(pack.rules[at(part.owner)].score, part.item);
+      break;
+    case Kind::evidence:
+      pack.decide.evidence = {};
+      break;
+    case Kind::company:
+      if (pack.decide.evidence.is_written()) erase_at(pack.decide.evidence.company, part.item);
+      break;
+    case Kind::typical:
+      erase_at(pack.classes[at(part.owner)].typical, part.item);
+      break;
+  }
+}
+
 }  // namespace
+
+void rules::Ablation::put_back(const DroppedPart& part) {
+  if (part.owner < 0)
+    pack_.decide = base_.decide;
+  else if (part.kind == DroppedPart::Kind::typical)
+    pack_.classes[at(part.owner)].typical = base_.classes[at(part.owner)].typical;
+  else
+    pack_.rules[at(part.owner)] = base_.rules[at(part.owner)];
+}
+
+/// From the last of an owner to the first, so that those before keep their numbers.
+const Pack& rules::Ablation::without(std::vector<DroppedPart> parts) {
+  for (const DroppedPart& part : dropped_) put_back(part);
+  pack_.code.resize(base_.code.size());
+  dropped_ = std::move(parts);
+  std::ranges::sort(dropped_, [](const DroppedPart& p, const DroppedPart& q) {
+    return std::pair(p.item, p.part) > std::pair(q.item, q.part);
+  });
+  for (const DroppedPart& part : dropped_) drop(pack_, part);
+  return pack_;
+}
 
 Variant variant_with(const RuleBase& base, std::vector<ParamValue> params) {
   Variant variant;
@@ -120,11 +185,9 @@ std::vector<Variant> ablations(const RuleBase& base) { return AblationFinder(bas
 Checked<RuleBase> with_variant(const RuleBase& base, const Variant& variant) {
   Checked<RuleBase> set = with_params(base, std::span(variant.params));
   if (!set.value || variant.without.empty()) return set;
-  rules::ChangedPack changed(set.value->pack());
-  changed.become({{}, variant.without});
-  auto pack = std::make_shared<Pack>(changed.pack());
-  pack->sha256 = sha256(pack->sha256 + "\n" + variant.name);
-  set.value.emplace(std::move(pack));
+  auto pack = std::make_shared<Pack>(rules::Ablation(base.pack()).without(variant.without));
+  const rules::PackValues values(*pack, set.value->values().params);
+  set.value.emplace(std::move(pack), values, sha256(set.value->sha256() + "\n" + variant.name));
   return set;
 }
 

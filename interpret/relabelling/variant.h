@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/pack/pack.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/params/with_params.h"
 #include "kernel/base/issue.h"
@@ -50,6 +51,26 @@ Variant variant_with(const RuleBase& base, std::vector<ParamValue> params);
 /// left, each of its `unless`, each term of its score; joint evidence as a whole, each relation of
 /// company and each count of `typical`. In the order of the pack.
 std::vector<Variant> ablations(const RuleBase& base);
+
+namespace rules {
+
+/// A copy of a pack that leaves parts out, some after others. The pack must outlive it.
+class Ablation {
+ public:
+  explicit Ablation(const Pack& base) : base_(base), pack_(base) {}
+
+  /// The pack without these parts and with all others. Valid until the next call.
+  const Pack& without(std::vector<DroppedPart> parts);
+
+ private:
+  void put_back(const DroppedPart& part);
+
+  const Pack& base_;
+  Pack pack_;
+  std::vector<DroppedPart> dropped_;
+};
+
+}  // namespace rules
 
 /// The variant as a pack of its own. sha256() is that of with_params() for its params, followed by
 /// "\n" and the name if something is dropped. Errors are as of with_params().

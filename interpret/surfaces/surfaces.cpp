@@ -34,7 +34,7 @@ struct SurfaceConjunct {
 class SurfaceDecider {
  public:
   /// `more`: what is measured later; null: nothing.
-  SurfaceDecider(const SurfaceRules& surfaces, const SurfaceTable& table,
+  SurfaceDecider(const RuleBase& base, const SurfaceTable& table,
                  const MoreAttributes* more = nullptr);
 
   /// For each of the rows, in their order, the number of the rule, or -1.
@@ -61,15 +61,15 @@ class SurfaceDecider {
   std::vector<int> undecided_;
 };
 
-SurfaceDecider::SurfaceDecider(const SurfaceRules& surfaces, const SurfaceTable& table,
+SurfaceDecider::SurfaceDecider(const RuleBase& base, const SurfaceTable& table,
                                const MoreAttributes* more)
-    : surfaces_(surfaces),
+    : surfaces_(*base.pack().surfaces),
       more_(more),
-      context_(surfaces.pack, table),
-      evaluator_(surfaces.pack, context_),
-      conjuncts_(surfaces.rules.size()) {
+      context_(surfaces_.pack, base.values(), table),
+      evaluator_(surfaces_.pack, context_),
+      conjuncts_(surfaces_.rules.size()) {
   for (std::size_t r = 0; r < conjuncts_.size(); ++r)
-    for (const ExprId id : surfaces.rules[r].when) add_conjuncts(id, conjuncts_[r]);
+    for (const ExprId id : surfaces_.rules[r].when) add_conjuncts(id, conjuncts_[r]);
 }
 
 void SurfaceDecider::add_conjuncts(ExprId id, std::vector<SurfaceConjunct>& conjuncts) const {
@@ -138,23 +138,24 @@ const std::string* top_of(const Pack& pack, const std::string& label) {
   return nullptr;
 }
 
-std::string top_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
-  if (const std::string* top = top_of(pack, table.text(row, SurfaceAttribute::part))) return *top;
+std::string top_by_default(const RuleBase& base, const SurfaceTable& table, std::size_t row) {
+  if (const std::string* top = top_of(base.pack(), table.text(row, SurfaceAttribute::part)))
+    return *top;
   const auto host = table.number(row, SurfaceAttribute::host_inclination);
-  const bool is_in_wall = host && rules::kind_of_facet(pack.hosts, *host) == HostKind::wall;
+  const bool is_in_wall = host && base.values().kind_of_facet(*host) == HostKind::wall;
   return is_in_wall && table.text(row, SurfaceAttribute::sense) == "hole" ? "OuterFloorSurface"
                                                                           : "RoofSurface";
 }
 
-std::string type_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
+std::string type_by_default(const RuleBase& base, const SurfaceTable& table, std::size_t row) {
   const auto inclination = table.number(row, SurfaceAttribute::inclination);
   if (!inclination) return "WallSurface";
-  switch (rules::kind_of_facet(pack.hosts, *inclination)) {
+  switch (base.values().kind_of_facet(*inclination)) {
     case HostKind::roof:
-      return top_by_default(pack, table, row);
+      return top_by_default(base, table, row);
     case HostKind::ground:
       return table.number(row, SurfaceAttribute::base_height).value_or(0) <=
-                     pack.hosts.ground_reach_m
+                     base.values().ground_reach_m
                  ? "GroundSurface"
                  : "OuterCeilingSurface";
     default:
@@ -170,9 +171,9 @@ std::vector<int> all_rows(const SurfaceTable& table) {
 
 /// By row; of rows that are not asked for -1. The order of the three-valued logic sees to it that
 /// what is decided while values are missing stays so when they are filled in.
-std::vector<int> decide_with_more(const SurfaceRules& surfaces, const SurfaceTable& table,
+std::vector<int> decide_with_more(const RuleBase& base, const SurfaceTable& table,
                                   std::span<const int> rows, MoreAttributes& more) {
-  SurfaceDecider decider(surfaces, table, &more);
+  SurfaceDecider decider(base, table, &more);
   std::vector<int> deciding(table.rows(), -1);
   std::vector<int> open(rows.begin(), rows.end());
   for (;;) {
@@ -236,40 +237,42 @@ std::string rule_lines(const SurfaceRules& surfaces, rules::Evaluator& evaluator
 }
 
 /// By `deciding`, the rule that decided.
-SurfaceVerdict verdict_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
+SurfaceVerdict verdict_of(const RuleBase& base, const SurfaceTable& table, std::size_t row,
                           int deciding) {
-  if (deciding < 0) return {type_by_default(pack, table, row), ""};
-  const SurfaceRule& rule = pack.surfaces->rules[static_cast<std::size_t>(deciding)];
+  if (deciding < 0) return {type_by_default(base, table, row), ""};
+  const SurfaceRule& rule = base.pack().surfaces->rules[static_cast<std::size_t>(deciding)];
   return {rule.type, rule.id};
 }
 
 /// The same row by row.
-std::vector<SurfaceVerdict> verdicts_of(const Pack& pack, const SurfaceTable& table,
+std::vector<SurfaceVerdict> verdicts_of(const RuleBase& base, const SurfaceTable& table,
                                         const std::vector<int>& deciding) {
   std::vector<SurfaceVerdict> verdicts;
   verdicts.reserve(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row)
-    verdicts.push_back(verdict_of(pack, table, row, deciding[row]));
+    verdicts.push_back(verdict_of(base, table, row, deciding[row]));
   return verdicts;
 }
 
-std::vector<int> decide_all(const Pack& pack, const SurfaceTable& table) {
-  if (pack.surfaces) return SurfaceDecider(*pack.surfaces, table).decide(all_rows(table));
+std::vector<int> decide_all(const RuleBase& base, const SurfaceTable& table) {
+  if (base.pack().surfaces) return SurfaceDecider(base, table).decide(all_rows(table));
   return std::vector<int>(table.rows(), -1);
 }
 
-std::vector<std::string> explanations_of(const Pack& pack, const SurfaceTable& table,
+std::vector<std::string> explanations_of(const RuleBase& base, const SurfaceTable& table,
                                          std::span<const int> rows) {
-  const auto deciding = decide_all(pack, table);
+  const Pack& pack = base.pack();
+  const auto deciding = decide_all(base, table);
   std::optional<rules::EvaluationContext> context;
   std::optional<rules::Evaluator> evaluator;
   if (pack.surfaces)
-    evaluator.emplace(pack.surfaces->pack, context.emplace(pack.surfaces->pack, table));
+    evaluator.emplace(pack.surfaces->pack,
+                      context.emplace(pack.surfaces->pack, base.values(), table));
   std::vector<std::string> texts;
   texts.reserve(rows.size());
   for (const int r : rows) {
     const auto row = static_cast<std::size_t>(r);
-    const SurfaceVerdict verdict = verdict_of(pack, table, row, deciding[row]);
+    const SurfaceVerdict verdict = verdict_of(base, table, row, deciding[row]);
     texts.push_back(
         fmt::format("{} by {}\n", verdict.type, verdict.rule.empty() ? "hosts" : verdict.rule) +
         attribute_lines(table, row));
@@ -345,27 +348,26 @@ std::vector<int> rows_to_name(const Building& building, const PolygonOwners& own
 
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table,
                                                std::span<const int> rows, MoreAttributes& more) {
-  const Pack& pack = base.pack();
   std::vector<int> deciding(table.rows(), -1);
-  if (pack.surfaces) deciding = decide_with_more(*pack.surfaces, table, rows, more);
+  if (base.pack().surfaces) deciding = decide_with_more(base, table, rows, more);
   std::vector<SurfaceVerdict> verdicts(table.rows());
   for (const int r : rows) {
     const auto row = static_cast<std::size_t>(r);
-    verdicts[row] = verdict_of(pack, table, row, deciding[row]);
+    verdicts[row] = verdict_of(base, table, row, deciding[row]);
   }
   return verdicts;
 }
 
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table) {
-  return verdicts_of(base.pack(), table, decide_all(base.pack(), table));
+  return verdicts_of(base, table, decide_all(base, table));
 }
 
 std::vector<std::string> explain_surfaces(const RuleBase& base, const SurfaceTable& table) {
-  return explanations_of(base.pack(), table, all_rows(table));
+  return explanations_of(base, table, all_rows(table));
 }
 
 std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std::size_t row) {
-  return explanations_of(base.pack(), table, std::array{static_cast<int>(row)}).front();
+  return explanations_of(base, table, std::array{static_cast<int>(row)}).front();
 }
 
 std::vector<std::string> surface_reasons(const RuleBase& base, const SurfaceTable& table,

@@ -40,7 +40,8 @@ class CoverageCounter {
   }
 
   void count(const DescribedBuilding& building) {
-    rules::EvaluationContext context(*pack_, building.table, building.graph);
+    rules::EvaluationContext context(*pack_, rules::PackValues(*pack_), building.table,
+                                     building.graph);
     if (context.rows == 0) return;
     for (const rules::Choice& choice : rules::Labelling(*pack_, context).run())
       if (choice.rule >= 0) ++rules_[static_cast<std::size_t>(choice.rule)].decided;

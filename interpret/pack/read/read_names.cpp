@@ -122,9 +122,7 @@ void read_typical(const YamlNode& node, Class& c, Loader& loader) {
       continue;
     }
     const std::string per = entry.key.text.substr(std::string_view("per ").size());
-    const int most = high ? static_cast<int>(high->value) : Typical::kNoEnd;
-    c.typical.push_back({per, static_cast<int>(low.value), most, -1, entry.key.span, low.expr,
-                         high ? high->expr : kNoExpr});
+    c.typical.push_back({per, low.expr, high ? high->expr : kNoExpr, entry.key.span});
   }
 }
 

@@ -1,3 +1,4 @@
+#include "interpret/evaluate/pack_values.h"
 #include "interpret/pack/loader.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
@@ -72,17 +73,15 @@ void read_facet_range(const YamlNode* node, HostRange& range, Loader& loader) {
   if (node == nullptr) return;
   const auto read = read_range(*node, Dimension{0, 1}, loader);
   if (!read) return;
-  range = {read->low, read->high, read->low_expr, read->high_expr};
-  if (range.low_deg < 0 || range.high_deg > 180)
+  range = {read->low_expr, read->high_expr};
+  if (read->low < 0 || read->high > 180)
     loader.findings.error(Code::R212, node->span, "an inclination lies in 0 deg .. 180 deg");
 }
 
-/// What it was folded from, or kNoExpr.
-ExprId read_share(const YamlNode* node, const std::string& what, double& share, Loader& loader) {
+ExprId read_share(const YamlNode* node, const std::string& what, Loader& loader) {
   const auto value = node == nullptr ? std::nullopt : read_quantity(*node, Dimension{}, loader);
   if (!value) return kNoExpr;
-  share = value->value;
-  if (share < 0 || share > 1)
+  if (value->value < 0 || value->value > 1)
     loader.findings.error(Code::R212, node->span, what + " lies in 0 .. 1");
   return value->expr;
 }
@@ -105,13 +104,13 @@ std::vector<int> read_company(const YamlNode& node, Loader& loader) {
 void read_evidence(const YamlSection& section, Loader& loader) {
   EvidenceSettings& evidence = loader.pack.decide.evidence;
   const YamlNode* most = section.find("evidence");
-  evidence.most_of = read_share(most, "'evidence'", evidence.most, loader);
+  evidence.most = read_share(most, "'evidence'", loader);
   const YamlNode* company = section.find("company");
   if (company != nullptr) evidence.company = read_company(*company, loader);
   if (evidence.is_written()) {
     evidence.span = most->span;
     if (company == nullptr) evidence.company = {relation_number(loader.pack, "alike")};
-    if (2 * evidence.most > loader.pack.decide.ambiguous_below)
+    if (const PackValues said(loader.pack); 2 * said.evidence > said.ambiguous_below)
       loader.findings.error(
           Code::R212, most->span,
           "'evidence' is at most half of 'ambiguous_below': it decides what is close only");
@@ -130,15 +129,12 @@ void read_hosts(const YamlNode& node, Loader& loader) {
   read_facet_range(section.find("wall"), hosts.wall, loader);
   read_facet_range(section.find("roof"), hosts.roof, loader);
   read_facet_range(section.find("ground"), hosts.ground, loader);
-  if (is_overlapping(hosts.wall, hosts.roof) || is_overlapping(hosts.wall, hosts.ground) ||
-      is_overlapping(hosts.roof, hosts.ground))
+  if (PackValues(loader.pack).has_overlapping_hosts())
     loader.findings.error(Code::R212, node.span, "wall, roof and ground overlap");
   const YamlNode* reach = section.find("ground_reach");
   if (reach == nullptr) return;
-  const auto value = read_quantity(*reach, Dimension{1, 0}, loader);
-  if (!value) return;
-  hosts.ground_reach_m = value->value;
-  hosts.ground_reach_of = value->expr;
+  if (const auto value = read_quantity(*reach, Dimension{1, 0}, loader))
+    hosts.ground_reach = value->expr;
 }
 
 void read_decide(const YamlNode& node, Loader& loader) {
@@ -146,10 +142,8 @@ void read_decide(const YamlNode& node, Loader& loader) {
                       {"min_score", "ambiguous_below", "evidence", "company", "otherwise"},
                       loader.findings);
   Decide& decide = loader.pack.decide;
-  decide.min_score_of =
-      read_share(section.find("min_score"), "'min_score'", decide.min_score, loader);
-  decide.ambiguous_below_of = read_share(section.find("ambiguous_below"), "'ambiguous_below'",
-                                         decide.ambiguous_below, loader);
+  decide.min_score = read_share(section.find("min_score"), "'min_score'", loader);
+  decide.ambiguous_below = read_share(section.find("ambiguous_below"), "'ambiguous_below'", loader);
   read_evidence(section, loader);
   if (const YamlNode* otherwise = section.find("otherwise"))
     read_choice(*otherwise, "'otherwise'", {"unknown"}, loader.findings);

@@ -68,7 +68,7 @@ TEST_SUITE("interpret/learn") {
       const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
       const std::vector<Sample> samples{random_sample(seed, 15)};
       const ForEachShare for_each = for_each_in_turn;
-      const LearningSet set(rules.pack(), samples, Objective::macro_f1(), for_each);
+      const LearningSet set(rules, samples, Objective::macro_f1(), for_each);
       RC_ASSERT(set.params().size() == 3U);
       const std::size_t only[] = {0};
       for (const std::size_t param : set.params()) {
@@ -99,7 +99,7 @@ TEST_SUITE("interpret/learn") {
       const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
       const std::vector<Sample> samples{random_sample(seed, 12), random_sample(seed + 1, 9)};
       const ForEachShare for_each = for_each_in_turn;
-      const LearningSet asked(rules.pack(), samples, Objective::macro_f1(), for_each);
+      const LearningSet asked(rules, samples, Objective::macro_f1(), for_each);
       const SamplePart all = all_samples(samples.size());
       const auto& params = asked.params();
       for (int round = 0; round < 6; ++round) {
@@ -107,7 +107,7 @@ TEST_SUITE("interpret/learn") {
         at[params[0]] = 0.5 * *rc::gen::inRange(1, 4);
         at[params[1]] = 1.0 + *rc::gen::inRange(0, 3);
         const std::size_t param = params[static_cast<std::size_t>(*rc::gen::inRange(0, 2))];
-        const LearningSet fresh(rules.pack(), samples, Objective::macro_f1(), for_each);
+        const LearningSet fresh(rules, samples, Objective::macro_f1(), for_each);
         RC_ASSERT(asked.outcomes(at, all) == fresh.outcomes(at, all));
         const auto of_asked = asked.curves(at, param, all), of_fresh = fresh.curves(at, param, all);
         for (const std::size_t sample : all) {

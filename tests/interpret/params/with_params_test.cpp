@@ -1,7 +1,6 @@
 #include "interpret/params/with_params.h"
 
-#include "interpret/plan/plan.h"
-#include "interpret/surfaces/surface_rules.h"
+#include "interpret/evaluate/pack_values.h"
 #include "tests/interpret/random_scene.h"
 
 #include <array>
@@ -86,14 +85,6 @@ std::string refusals(const std::vector<std::string>& assignments) {
   return refusals(with_params(everywhere(), assignments));
 }
 
-bool is_same(const rules::Hosts& p, const rules::Hosts& q) {
-  const auto is_same_range = [](const rules::HostRange& a, const rules::HostRange& b) {
-    return a.low_deg == b.low_deg && a.high_deg == b.high_deg;
-  };
-  return is_same_range(p.wall, q.wall) && is_same_range(p.roof, q.roof) &&
-         is_same_range(p.ground, q.ground) && p.ground_reach_m == q.ground_reach_m;
-}
-
 }  // namespace
 
 TEST_SUITE("interpret/params") {
@@ -117,11 +108,17 @@ TEST_SUITE("interpret/params") {
       ++accepted;
       const Scene scene = random_scene(seed, 12);
       RC_ASSERT(labels(*set.value, scene) == labels(*text.value, scene));
-      const rules::Pack& p = set.value->pack();
-      const rules::Pack& q = text.value->pack();
-      RC_ASSERT(is_same(p.hosts, q.hosts));
-      for (std::size_t i = 0; i < p.params.size(); ++i)
-        RC_ASSERT(p.surfaces->pack.params[i].value == q.surfaces->pack.params[i].value);
+      const rules::PackValues& p = set.value->values();
+      const rules::PackValues& q = text.value->values();
+      RC_ASSERT(p.wall == q.wall && p.roof == q.roof && p.ground == q.ground);
+      RC_ASSERT(p.ground_reach_m == q.ground_reach_m && p.params == q.params);
+      RC_ASSERT(p.min_score == q.min_score && p.ambiguous_below == q.ambiguous_below);
+      RC_ASSERT(p.evidence == q.evidence);
+      const rules::Pack& pack = base.pack();
+      for (std::size_t c = 0; c < pack.classes.size(); ++c)
+        for (std::size_t i = 0; i < pack.classes[c].typical.size(); ++i)
+          RC_ASSERT(p.count_of(pack, pack.classes[c].typical[i]) ==
+                    q.count_of(text.value->pack(), text.value->pack().classes[c].typical[i]));
     }));
     CHECK(accepted > 10);
   }

@@ -1,5 +1,6 @@
-#include "interpret/explain/what_if.h"
+#include "interpret/relabelling/relabelling.h"
 
+#include "interpret/params/find_fault.h"
 #include "interpret/params/with_params.h"
 #include "tests/interpret/random_scene.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// A rule that asks for labels of others, one that asks twice, a relation and evidence that move
 /// with params, and scores.
-const std::string kWhatIfPack =
+const std::string kMovingPack =
     "schema: oriel/1\n"
     "pack: {name: t, version: 1.0.0}\n"
     "params:\n"
@@ -43,9 +44,9 @@ const std::string kWhatIfPack =
 
 }  // namespace
 
-TEST_SUITE("interpret/explain") {
+TEST_SUITE("interpret/relabelling") {
   TEST_CASE("labels with another value are those of a pack that states it") {
-    const std::vector<RuleBase> packs{load(kWhatIfPack),
+    const std::vector<RuleBase> packs{load(kMovingPack),
                                       load_pack_file("residential").value.value()};
     std::size_t others = 0;
     CHECK(rc::check("labels", [&] {
@@ -54,21 +55,25 @@ TEST_SUITE("interpret/explain") {
       const FeatureTable table = scene.table();
       const FeatureGraph graph = scene.graph();
       const Interpretation as_said = interpret(base, table, graph);
-      rules::WhatIf what_if(base.pack(), table, graph);
+      const rules::Pack& pack = base.pack();
+      const rules::RuleUses uses(pack);
+      rules::Relabelling relabelling(pack, base.values(), uses, table, graph);
       for (int i = 0; i < 8; ++i) {
-        const auto number = *rc::gen::inRange<std::size_t>(0, base.pack().params.size());
-        const rules::Param& param = base.pack().params[number];
+        const auto number = *rc::gen::inRange<std::size_t>(0, pack.params.size());
+        const rules::Param& param = pack.params[number];
         const auto [low, high] = param.range.value_or(std::pair(param.value, param.value));
         const double value = low + (high - low) * *rc::gen::inRange(0, 41) / 40;
         const ParamValue assigned{param.name, value};
         const auto stated = with_params(base, {&assigned, 1}).value;
-        RC_ASSERT(what_if.label(number, value, 0).has_value() == stated.has_value());
+        const rules::PackValues values = base.values().with(pack, number, value);
+        RC_ASSERT(rules::find_fault(pack, values).has_value() != stated.has_value());
         if (!stated) continue;
+        const auto& choices = relabelling.choices(pack, values, uses.affected_by({&number, 1}));
         const Interpretation said = interpret(*stated, table, graph);
         for (std::size_t row = 0; row < table.rows(); ++row) {
-          const auto choice = what_if.label(number, value, row).value();
+          const rules::Choice& choice = choices[row];
           const std::string rule =
-              choice.rule < 0 ? "" : base.pack().rules[static_cast<std::size_t>(choice.rule)].id;
+              choice.rule < 0 ? "" : pack.rules[static_cast<std::size_t>(choice.rule)].id;
           RC_ASSERT(rule == said.verdicts[row].rule.text());
           RC_ASSERT(choice.score == said.verdicts[row].score);
           others += said.verdicts[row].label != as_said.verdicts[row].label ? 1 : 0;
