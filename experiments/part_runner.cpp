@@ -262,7 +262,7 @@ void add_variants(const std::vector<PlannedRun>& runs, const SampleSet& set,
     variants.clear();
   };
   for (const PlannedRun& run : runs) {
-    if (const auto pack = with_variant(context.rules, run.variant); !pack.value) {
+    if (const auto pack = with_params(context.rules, run.variant.params); !pack.value) {
       work.leave_out(run.setting, pack.issues);
       continue;
     }

@@ -16,7 +16,7 @@ namespace oriel {
 RunOutcomes measure(const RuleBase& rules, std::span<const Sample> samples,
                     const ForEachShare& for_each = for_each_in_turn);
 
-/// What a variant came to, as measure() has it of with_variant(). `samples` are those that were
+/// What a variant came to, as measure() has it of a pack of its own. `samples` are those that were
 /// counted.
 RunOutcomes outcomes_of(const VariantCounts& counts, std::size_t variant,
                         std::span<const Sample> samples);

@@ -27,9 +27,21 @@ struct CountRange {
   friend bool operator==(const CountRange&, const CountRange&) = default;
 };
 
+/// What the settings of a pack come to.
+struct PackSettings {
+  AngleRange wall{75, 105}, roof{0, 75}, ground{105, 180};
+  /// A face that looks down is ground if it lies no higher than this over the building's lowest
+  /// point.
+  double ground_reach_m = 0.5;
+  /// Of `decide:`; the evidence is the most that a score is moved by.
+  double min_score = 0, ambiguous_below = 0, evidence = 0;
+
+  friend bool operator==(const PackSettings&, const PackSettings&) = default;
+};
+
 /// The values of a pack's params, an input of all that is evaluated, and what the pack's settings
 /// come to with them. One pack serves all values.
-struct PackValues {
+struct PackValues : PackSettings {
   /// Those that the pack states.
   explicit PackValues(const Pack& pack);
   /// Those in `params`, in metres, degrees or plain. Whether they are within their ranges and the
@@ -47,12 +59,6 @@ struct PackValues {
   [[nodiscard]] HostKind kind_of_facet(double inclination_deg) const;
 
   std::vector<double> params;
-  AngleRange wall{75, 105}, roof{0, 75}, ground{105, 180};
-  /// A face that looks down is ground if it lies no higher than this over the building's lowest
-  /// point.
-  double ground_reach_m = 0.5;
-  /// Of `decide:`; the evidence is the most that a score is moved by.
-  double min_score = 0, ambiguous_below = 0, evidence = 0;
 };
 
 }  // namespace oriel::rules

@@ -182,7 +182,7 @@ void Labelling::run_decision(const RuleStep& step) {
   for (const int id : step.rules) unknown_rows_[oriel::at(rule(id).label)].clear();
   for (const int id : step.rules) collect(id);
   for (auto& candidates : candidates_) sort_candidates(*pack_, context_->values, candidates);
-  if (context_->values.evidence > 0) weigh_evidence();
+  if (pack_->decide.evidence.is_written() && context_->values.evidence > 0) weigh_evidence();
   for (std::size_t row = 0; row < candidates_.size(); ++row) {
     if (candidates_[row].empty()) continue;
     decide(row);

@@ -1,6 +1,5 @@
 #include "interpret/learn/count_variants.h"
 
-#include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/relabelling/relabelling.h"
 #include "interpret/relabelling/rule_uses.h"
@@ -16,7 +15,6 @@ namespace oriel {
 namespace {
 
 using rules::Ablation;
-using rules::PackValues;
 using rules::RuleUses;
 
 /// Samples that are counted in one piece with one copy of the pack: so many, unless there are few.
@@ -30,15 +28,19 @@ LabelSet labels_of(const RuleBase& rules, std::span<const Sample> samples) {
   return labels;
 }
 
-/// What is wrong with the variants, each at its name.
-std::vector<Issue> faults_of(const RuleBase& rules, std::span<const Variant> variants) {
-  std::vector<Issue> issues;
-  for (const Variant& variant : variants)
-    for (Issue& issue : with_params(rules, std::span(variant.params)).issues) {
+/// The rules with the params of each variant; what is wrong with one is at its name.
+std::vector<RuleBase> set_each(const RuleBase& rules, std::span<const Variant> variants,
+                               std::vector<Issue>& issues) {
+  std::vector<RuleBase> all;
+  for (const Variant& variant : variants) {
+    auto set = with_params(rules, std::span(variant.params));
+    if (set.value) all.push_back(std::move(*set.value));
+    for (Issue& issue : set.issues) {
       issue.place.file = variant.name;
       issues.push_back(std::move(issue));
     }
-  return issues;
+  }
+  return all;
 }
 
 }  // namespace
@@ -82,23 +84,24 @@ double macro_f1(const std::map<std::string, ClassScore>& classes) {
 /// Fills counts, a share of the samples at a time.
 class VariantCounter {
  public:
-  VariantCounter(const RuleBase& rules, std::span<const Variant> variants,
-                 std::span<const Sample> samples, const ScoreOptions& options, bool keeps_labels)
+  /// `set` are the rules with the params of each variant.
+  VariantCounter(const RuleBase& rules, std::vector<RuleBase> set,
+                 std::span<const Variant> variants, std::span<const Sample> samples,
+                 const ScoreOptions& options, bool keeps_labels)
       : pack_(rules.pack()),
         variants_(variants),
-        values_(rules.values()),
+        rules_(rules),
+        set_(std::move(set)),
         samples_(samples),
         options_(options),
         uses_(pack_),
         counts_(variants.size(), samples, labels_of(rules, samples), keeps_labels) {
-    for (const Variant& variant : variants) {
-      auto& params = params_.emplace_back(values_.params);
-      std::vector<std::size_t> set;
-      for (const ParamValue& value : variant.params) {
-        set.push_back(at(rules::index_of(pack_.params, value.name)));
-        params[set.back()] = value.value;
-      }
-      affected_.push_back(uses_.affected_by(set, variant.without));
+    for (std::size_t variant = 0; variant < variants.size(); ++variant) {
+      std::vector<std::size_t> changed;
+      for (std::size_t param = 0; param < pack_.params.size(); ++param)
+        if (set_[variant].values().params[param] != rules.values().params[param])
+          changed.push_back(param);
+      affected_.push_back(uses_.affected_by(changed, variants[variant].without));
     }
     for (const rules::Class& c : pack_.classes)
       label_of_class_.push_back(counts_.labels_.find(c.name));
@@ -118,13 +121,12 @@ class VariantCounter {
  private:
   void count(std::size_t number, Ablation& ablation) {
     const Sample& sample = samples_[number];
-    rules::Relabelling relabelling(pack_, values_, uses_, sample.features.table,
+    rules::Relabelling relabelling(pack_, rules_.values(), uses_, sample.features.table,
                                    sample.features.graph);
     LabelCounter counter(sample, counts_.labels_, options_);
     for (std::size_t variant = 0; variant < variants_.size(); ++variant) {
       const rules::Pack& pack = ablation.without(variants_[variant].without);
-      count(variant, number,
-            relabelling.choices(pack, PackValues(pack, params_[variant]), affected_[variant]),
+      count(variant, number, relabelling.choices(pack, set_[variant].values(), affected_[variant]),
             counter);
     }
   }
@@ -154,13 +156,12 @@ class VariantCounter {
 
   const rules::Pack& pack_;
   std::span<const Variant> variants_;
-  const PackValues& values_;
+  const RuleBase& rules_;
+  std::vector<RuleBase> set_;
   std::span<const Sample> samples_;
   const ScoreOptions& options_;
   RuleUses uses_;
   VariantCounts counts_;
-  /// By variant.
-  std::vector<std::vector<double>> params_;
   std::vector<RuleUses::Affected> affected_;
   std::vector<int> label_of_class_;
 };
@@ -168,9 +169,10 @@ class VariantCounter {
 Checked<VariantCounts> count_variants(const RuleBase& rules, std::span<const Variant> variants,
                                       std::span<const Sample> samples, const ScoreOptions& options,
                                       const ForEachShare& for_each, bool keeps_labels) {
-  if (auto issues = faults_of(rules, variants); has_errors(issues))
-    return {std::nullopt, std::move(issues)};
-  VariantCounter counter(rules, variants, samples, options, keeps_labels);
+  std::vector<Issue> issues;
+  auto set = set_each(rules, variants, issues);
+  if (has_errors(issues)) return {std::nullopt, std::move(issues)};
+  VariantCounter counter(rules, std::move(set), variants, samples, options, keeps_labels);
   return {counter.run(for_each), {}};
 }
 

@@ -71,7 +71,7 @@ class VariantCounts {
 /// The mean F1 of the classes that the truth has, as Score::macro_f1().
 double macro_f1(const std::map<std::string, ClassScore>& classes);
 
-/// Labels every sample with every variant of the pack, as interpret() would with with_variant(),
+/// Labels every sample with every variant of the pack, as interpret() would with a pack of its own,
 /// and compares the labels with the truth, as score() would, in a fraction of the time: each sample
 /// is labelled with the pack as it is, and then only rules are asked again that a variant touches.
 ///

@@ -27,7 +27,7 @@ class PackComparison {
         other_values_(other.values()) {}
 
   [[nodiscard]] bool is_same() const {
-    return is_same_hosts() && one_->rounds == other_->rounds && is_same_decide() &&
+    return is_same_settings() && one_->rounds == other_->rounds &&
            are_same(one_->classes, other_->classes,
                     [this](const auto& p, const auto& q) { return is_same_class(p, q); }) &&
            are_same(one_->relations, other_->relations,
@@ -49,19 +49,10 @@ class PackComparison {
     return std::ranges::equal(p, q, is_same);
   }
 
-  [[nodiscard]] bool is_same_hosts() const {
-    const rules::PackValues &p = one_values_, &q = other_values_;
-    return p.wall == q.wall && p.roof == q.roof && p.ground == q.ground &&
-           p.ground_reach_m == q.ground_reach_m;
-  }
-
-  [[nodiscard]] bool is_same_decide() const {
-    const rules::Decide &p = one_->decide, &q = other_->decide;
-    return one_values_.min_score == other_values_.min_score &&
-           one_values_.ambiguous_below == other_values_.ambiguous_below &&
-           one_values_.evidence == other_values_.evidence &&
-           p.evidence.is_written() == q.evidence.is_written() &&
-           p.evidence.company == q.evidence.company;
+  [[nodiscard]] bool is_same_settings() const {
+    const rules::PackSettings &p = one_values_, &q = other_values_;
+    const rules::EvidenceSettings &s = one_->decide.evidence, &t = other_->decide.evidence;
+    return p == q && s.is_written() == t.is_written() && s.company == t.company;
   }
 
   [[nodiscard]] bool is_same_class(const rules::Class& p, const rules::Class& q) const {

@@ -55,20 +55,18 @@ bool RuleUses::is_of(const Uses& uses, const Changes& changes) {
   return changes.has_other_hosts && uses.has_facets;
 }
 
-/// Of a constant.
-bool RuleUses::depends(ExprId id, const std::vector<bool>& params) const {
-  if (id == kNoExpr) return false;
-  const Expr& expr = pack_->code[at(id)];
-  if (expr.op == Op::parameter) return params[at(expr.index)];
-  return std::ranges::any_of(expr.args, [&](ExprId arg) { return depends(arg, params); });
+bool RuleUses::is_moved(ExprId id, const Changes& changes) const {
+  Uses uses = nothing_;
+  add(id, uses);
+  return is_of(uses, changes);
 }
 
 RuleUses::Changes RuleUses::changes_of(std::span<const std::size_t> params) const {
   Changes changes{nothing_.params, nothing_.relations, false};
   for (const std::size_t param : params) changes.params[param] = true;
   for (const HostRange& range : {pack_->hosts.wall, pack_->hosts.roof, pack_->hosts.ground})
-    changes.has_other_hosts = changes.has_other_hosts || depends(range.low, changes.params) ||
-                              depends(range.high, changes.params);
+    changes.has_other_hosts =
+        changes.has_other_hosts || is_moved(range.low, changes) || is_moved(range.high, changes);
   const std::size_t built_in = relation_schema().size();
   for (std::size_t i = 0; i < relations_.size(); ++i)
     changes.relations[built_in + i] = is_of(relations_[i], changes);
@@ -77,7 +75,7 @@ RuleUses::Changes RuleUses::changes_of(std::span<const std::size_t> params) cons
 
 bool RuleUses::decides_anew(std::span<const DroppedPart> without, const Changes& changes) const {
   using Kind = DroppedPart::Kind;
-  const auto moves = [&](ExprId id) { return depends(id, changes.params); };
+  const auto moves = [&](ExprId id) { return is_moved(id, changes); };
   const Decide& decide = pack_->decide;
   return moves(decide.min_score) || moves(decide.ambiguous_below) || moves(decide.evidence.most) ||
          std::ranges::any_of(without,
@@ -117,11 +115,8 @@ RuleUses::Affected RuleUses::affected_by(std::span<const std::size_t> params,
 std::vector<ExprId> RuleUses::conditions_of(const Rule& rule, const Changes& changes) const {
   std::vector<ExprId> conditions;
   for (const auto* ids : {&rule.require, &rule.unless})
-    for (const ExprId id : *ids) {
-      Uses uses = nothing_;
-      add(id, uses);
-      if (is_of(uses, changes)) conditions.push_back(id);
-    }
+    for (const ExprId id : *ids)
+      if (is_moved(id, changes)) conditions.push_back(id);
   return conditions;
 }
 

@@ -60,7 +60,7 @@ class RuleUses {
   [[nodiscard]] std::vector<ExprId> conditions_of(const Rule& rule, const Changes& changes) const;
   [[nodiscard]] bool decides_anew(std::span<const DroppedPart> without,
                                   const Changes& changes) const;
-  [[nodiscard]] bool depends(ExprId id, const std::vector<bool>& params) const;
+  [[nodiscard]] bool is_moved(ExprId id, const Changes& changes) const;
 
   const Pack* pack_;
   Uses nothing_;

@@ -3,10 +3,8 @@
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "kernel/base/index.h"
-#include "kernel/base/sha256.h"
 
 #include <algorithm>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -181,14 +179,5 @@ Variant variant_with(const RuleBase& base, std::vector<ParamValue> params) {
 }
 
 std::vector<Variant> ablations(const RuleBase& base) { return AblationFinder(base.pack()).run(); }
-
-Checked<RuleBase> with_variant(const RuleBase& base, const Variant& variant) {
-  Checked<RuleBase> set = with_params(base, std::span(variant.params));
-  if (!set.value || variant.without.empty()) return set;
-  auto pack = std::make_shared<Pack>(rules::Ablation(base.pack()).without(variant.without));
-  const rules::PackValues values(*pack, set.value->values().params);
-  set.value.emplace(std::move(pack), values, sha256(set.value->sha256() + "\n" + variant.name));
-  return set;
-}
 
 }  // namespace oriel

@@ -3,7 +3,6 @@
 #include "interpret/pack/pack.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/params/with_params.h"
-#include "kernel/base/issue.h"
 
 #include <string>
 #include <vector>
@@ -71,9 +70,5 @@ class Ablation {
 };
 
 }  // namespace rules
-
-/// The variant as a pack of its own. sha256() is that of with_params() for its params, followed by
-/// "\n" and the name if something is dropped. Errors are as of with_params().
-Checked<RuleBase> with_variant(const RuleBase& base, const Variant& variant);
 
 }  // namespace oriel

@@ -1,9 +1,13 @@
 #pragma once
 
+#include "interpret/params/with_params.h"
+#include "interpret/relabelling/variant.h"
 #include "tests/interpret/support.h"
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 
 namespace oriel::test {
@@ -73,6 +77,16 @@ inline Scene random_scene(std::uint64_t seed, int features) {
     }
   }
   return scene;
+}
+
+/// The variant as a pack of its own, or what with_params() refuses of it.
+inline Checked<RuleBase> with_variant(const RuleBase& base, const Variant& variant) {
+  Checked<RuleBase> set = with_params(base, std::span(variant.params));
+  if (!set.value || variant.without.empty()) return set;
+  rules::Ablation ablation(base.pack());
+  set.value = RuleBase(std::make_shared<rules::Pack>(ablation.without(variant.without)),
+                       set.value->values(), set.value->sha256());
+  return set;
 }
 
 }  // namespace oriel::test

@@ -110,10 +110,8 @@ TEST_SUITE("interpret/params") {
       RC_ASSERT(labels(*set.value, scene) == labels(*text.value, scene));
       const rules::PackValues& p = set.value->values();
       const rules::PackValues& q = text.value->values();
-      RC_ASSERT(p.wall == q.wall && p.roof == q.roof && p.ground == q.ground);
-      RC_ASSERT(p.ground_reach_m == q.ground_reach_m && p.params == q.params);
-      RC_ASSERT(p.min_score == q.min_score && p.ambiguous_below == q.ambiguous_below);
-      RC_ASSERT(p.evidence == q.evidence);
+      RC_ASSERT(static_cast<const rules::PackSettings&>(p) == q);
+      RC_ASSERT(p.params == q.params);
       const rules::Pack& pack = base.pack();
       for (std::size_t c = 0; c < pack.classes.size(); ++c)
         for (std::size_t i = 0; i < pack.classes[c].typical.size(); ++i)

@@ -73,7 +73,6 @@ TEST_SUITE("interpret/relabelling") {
       if (!text.value) continue;
       ++compared;
       const RuleBase without = with_variant(rules, variant).value.value();
-      CHECK(without.sha256() != rules.sha256());
       for (std::uint64_t seed = 0; seed < 3; ++seed) {
         const Scene scene = random_scene(seed, 30);
         CHECK(labels(without, scene) == labels(*text.value, scene));
