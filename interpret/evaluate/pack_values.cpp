@@ -21,6 +21,15 @@ std::vector<double> stated_in(const Pack& pack) {
 PackValues::PackValues(const Pack& pack) : PackValues(pack, stated_in(pack)) {}
 
 PackValues::PackValues(const Pack& pack, std::vector<double> values) : params(std::move(values)) {
+  read_settings(pack);
+}
+
+void PackValues::set(const Pack& pack, std::size_t param, double value) {
+  params[param] = value;
+  read_settings(pack);
+}
+
+void PackValues::read_settings(const Pack& pack) {
   const auto read = [&](ExprId id, double& value) {
     if (id != kNoExpr) value = fold(pack, id, params).value_or(value);
   };
@@ -35,12 +44,6 @@ PackValues::PackValues(const Pack& pack, std::vector<double> values) : params(st
   read(pack.decide.min_score, min_score);
   read(pack.decide.ambiguous_below, ambiguous_below);
   read(pack.decide.evidence.most, evidence);
-}
-
-PackValues PackValues::with(const Pack& pack, std::size_t param, double value) const {
-  std::vector<double> others = params;
-  others[param] = value;
-  return {pack, std::move(others)};
 }
 
 bool PackValues::has_overlapping_hosts() const {

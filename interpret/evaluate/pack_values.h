@@ -47,8 +47,7 @@ struct PackValues : PackSettings {
   /// Those in `params`, in metres, degrees or plain. Whether they are within their ranges and the
   /// pack is sound with them is not looked at.
   PackValues(const Pack& pack, std::vector<double> params);
-  /// These with one param at another value.
-  [[nodiscard]] PackValues with(const Pack& pack, std::size_t param, double value) const;
+  void set(const Pack& pack, std::size_t param, double value);
 
   /// True if a facet could be two of a wall, a roof and a ground, ends aside.
   [[nodiscard]] bool has_overlapping_hosts() const;
@@ -59,6 +58,9 @@ struct PackValues : PackSettings {
   [[nodiscard]] HostKind kind_of_facet(double inclination_deg) const;
 
   std::vector<double> params;
+
+ private:
+  void read_settings(const Pack& pack);
 };
 
 }  // namespace oriel::rules

@@ -167,7 +167,8 @@ class FlipFinder {
   std::optional<Choice> choice_at(std::size_t param, double value) {
     if (gives_up()) return std::nullopt;
     ++search_.tried;
-    const PackValues values = values_.with(pack_, param, value);
+    PackValues values = values_;
+    values.set(pack_, param, value);
     if (find_fault(pack_, values)) return std::nullopt;
     auto& affected = affected_[param];
     if (!affected) affected = uses_.affected_by({&param, 1});

@@ -21,7 +21,7 @@ constexpr double kSharpFlip = 1e-4;
 constexpr std::size_t kSamplesInShare = 4;
 
 /// Of all samples together so many labellings are kept, of some 100 kB, and so many curves and
-/// outcomes, of some 500 bytes; and so many packs.
+/// outcomes, of some 500 bytes; and so many settings.
 constexpr std::size_t kMostLabelled = 240;
 constexpr std::size_t kMostKnown = 200'000;
 constexpr std::size_t kLeastKnown = 64;
@@ -198,8 +198,8 @@ class CurveTracer {
   }
 
   const LabelOutcome& outcome_at(double value) {
-    const auto& choices = relabelling_.choices(set_.pack_, values_.with(set_.pack_, param_, value),
-                                               set_.affected_[param_]);
+    values_.set(set_.pack_, param_, value);
+    const auto& choices = relabelling_.choices(set_.pack_, values_, set_.affected_[param_]);
     std::vector<int> rules;
     rules.reserve(choices.size());
     for (const rules::Choice& choice : choices) rules.push_back(choice.rule);
@@ -235,7 +235,8 @@ class CurveTracer {
   const LearningSet& set_;
   std::size_t sample_;
   std::size_t param_;
-  const rules::PackValues& values_;
+  /// With the param where it was asked last.
+  rules::PackValues values_;
   std::pair<double, double> range_;
   rules::Relabelling& relabelling_;
   ParamCurve curve_;

@@ -1,5 +1,3 @@
-#include "interpret/params/with_params.h"
-
 #include "interpret/compile/checker.h"
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/findings.h"
@@ -8,6 +6,7 @@
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/params/find_fault.h"
+#include "interpret/params/with_params.h"
 #include "kernel/base/index.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/suggest.h"
@@ -112,7 +111,7 @@ SourceSpan trimmed(std::string_view text, SourceSpan span) {
 /// Reads assignments one after the other; what is wrong with them is collected.
 class AssignmentReader {
  public:
-  explicit AssignmentReader(const Pack& pack) : pack_(pack) {}
+  explicit AssignmentReader(const RuleBase& base) : base_(base), pack_(base.pack()) {}
 
   void read(const std::string& assignment) {
     const std::size_t sign = assignment.find('=');
@@ -126,7 +125,7 @@ class AssignmentReader {
     const int param = find_param(assignment, assignment.substr(name.begin, name.end - name.begin));
     if (param < 0) return;
     const SourceSpan value = trimmed(assignment, {sign + 1, assignment.size()});
-    if (const auto number = read_value(assignment, value, pack_.params[at(param)]))
+    if (const auto number = read_value(assignment, value, at(param)))
       values_.push_back({pack_.params[at(param)].name, *number});
   }
 
@@ -139,7 +138,7 @@ class AssignmentReader {
   [[nodiscard]] std::string example() const {
     if (pack_.params.empty()) return "parapet=0.9 m";
     const Param& first = pack_.params.front();
-    return fmt::format("'{}={}'", first.name, number_text(first.value, first));
+    return fmt::format("'{}={}'", first.name, number_text(base_.values().params.front(), first));
   }
 
   int find_param(const std::string& assignment, const std::string& name) {
@@ -164,14 +163,15 @@ class AssignmentReader {
 
   /// The number that stands there, as one in a pack is read.
   std::optional<double> read_value(const std::string& assignment, SourceSpan where,
-                                   const Param& param) {
+                                   std::size_t number) {
+    const Param& param = pack_.params[number];
     Pack scratch(rules::Source(assignment, assignment));
     rules::Findings findings(scratch.source);
     rules::Names names;
     if (where.begin == where.end) {
       issues_.push_back(refusal(Code::R211, assignment,
                                 fmt::format("'{}' needs a value, such as {}", param.name,
-                                            number_text(param.value, param))));
+                                            number_text(base_.values().params[number], param))));
       return std::nullopt;
     }
     const auto syntax = rules::parse_expression(where, findings);
@@ -193,40 +193,34 @@ class AssignmentReader {
     return issue;
   }
 
+  const RuleBase& base_;
   const Pack& pack_;
   std::set<int> seen_;
   std::vector<ParamValue> values_;
   std::vector<Issue> issues_;
 };
 
-/// Values with their texts, which are their places.
-struct Assigned {
-  std::size_t param = 0;
-  double value = 0;
-  std::string text;
-};
-
 bool is_in_range(const Param& param, double value) {
   return !param.range || (value >= param.range->first && value <= param.range->second);
 }
 
-Issue beyond_range(const Assigned& assigned, const Param& param) {
-  return refusal(
-      Code::R212, assigned.text,
-      fmt::format("{} is outside the range of '{}', {} .. {}", number_text(assigned.value, param),
-                  param.name, number_text(param.range->first, param),
-                  number_text(param.range->second, param)));
+Issue beyond_range(const std::string& assignment, double value, const Param& param) {
+  return refusal(Code::R212, assignment,
+                 fmt::format("{} is outside the range of '{}', {} .. {}", number_text(value, param),
+                             param.name, number_text(param.range->first, param),
+                             number_text(param.range->second, param)));
 }
 
 /// Of a pack that would be refused: at the first assignment that has to do with it.
 Issue refused(const rules::RefusedValue& fault, const Pack& pack,
-              std::span<const Assigned> assigned) {
-  const auto is_cause = [&](const Assigned& one) {
-    return std::ranges::find(fault.params, one.param) != fault.params.end();
+              std::span<const std::string> assignments, std::span<const ParamValue> values) {
+  std::size_t cause = 0;
+  const auto is_cause = [&](std::size_t param) {
+    return pack.params[param].name == values[cause].name;
   };
-  const auto cause = std::ranges::find_if(assigned, is_cause);
+  while (cause + 1 < values.size() && std::ranges::none_of(fault.params, is_cause)) ++cause;
   const Place place = pack.source.place(fault.span.begin);
-  return refusal(Code::R212, cause == assigned.end() ? assigned.back().text : cause->text,
+  return refusal(Code::R212, assignments[cause],
                  fmt::format("with this value the pack would be refused at {}:{}:{}: {}",
                              place.file, place.line, place.column, fault.sentence));
 }
@@ -238,24 +232,6 @@ std::string digest_of(const RuleBase& before, const rules::PackValues& after) {
     if (before.values().params[i] != after.params[i])
       text += fmt::format("\n{}={}", before.pack().params[i].name, exact_text(after.params[i]));
   return text.empty() ? before.sha256() : sha256(before.sha256() + text);
-}
-
-Checked<RuleBase> set_all(const RuleBase& base, std::span<const Assigned> assigned) {
-  Checked<RuleBase> result;
-  const Pack& pack = base.pack();
-  std::vector<double> params = base.values().params;
-  for (const Assigned& one : assigned) {
-    if (!is_in_range(pack.params[one.param], one.value))
-      result.issues.push_back(beyond_range(one, pack.params[one.param]));
-    params[one.param] = one.value;
-  }
-  const rules::PackValues values(pack, std::move(params));
-  if (result.issues.empty())
-    if (const auto fault = rules::find_fault(pack, values))
-      result.issues.push_back(refused(*fault, pack, assigned));
-  if (result.issues.empty())
-    result.value.emplace(base.shared_pack(), values, digest_of(base, values));
-  return result;
 }
 
 }  // namespace
@@ -278,7 +254,7 @@ std::string to_string(const ParamValue& assigned, const RuleBase& base) {
 
 Checked<std::vector<ParamValue>> read_assignments(const RuleBase& base,
                                                   std::span<const std::string> assignments) {
-  AssignmentReader reader(base.pack());
+  AssignmentReader reader(base);
   for (const std::string& assignment : assignments) reader.read(assignment);
   return reader.result();
 }
@@ -287,12 +263,22 @@ Checked<RuleBase> with_params(const RuleBase& base, std::span<const std::string>
   const Pack& pack = base.pack();
   auto read = read_assignments(base, assignments);
   if (!read.value) return {std::nullopt, std::move(read.issues)};
-  std::vector<Assigned> assigned;
+  Checked<RuleBase> result;
+  std::vector<double> params = base.values().params;
   for (std::size_t i = 0; i < assignments.size(); ++i) {
-    const ParamValue& value = (*read.value)[i];
-    assigned.push_back({at(rules::index_of(pack.params, value.name)), value.value, assignments[i]});
+    const auto& [name, value] = (*read.value)[i];
+    const std::size_t param = at(rules::index_of(pack.params, name));
+    if (!is_in_range(pack.params[param], value))
+      result.issues.push_back(beyond_range(assignments[i], value, pack.params[param]));
+    params[param] = value;
   }
-  return set_all(base, assigned);
+  if (!result.issues.empty()) return result;
+  const rules::PackValues values(pack, std::move(params));
+  if (const auto fault = rules::find_fault(pack, values))
+    result.issues.push_back(refused(*fault, pack, assignments, *read.value));
+  else
+    result.value.emplace(base.shared_pack(), values, digest_of(base, values));
+  return result;
 }
 
 Checked<RuleBase> with_params(const RuleBase& base, std::span<const ParamValue> values) {

@@ -65,7 +65,8 @@ TEST_SUITE("interpret/relabelling") {
         const double value = low + (high - low) * *rc::gen::inRange(0, 41) / 40;
         const ParamValue assigned{param.name, value};
         const auto stated = with_params(base, {&assigned, 1}).value;
-        const rules::PackValues values = base.values().with(pack, number, value);
+        rules::PackValues values = base.values();
+        values.set(pack, number, value);
         RC_ASSERT(rules::find_fault(pack, values).has_value() != stated.has_value());
         if (!stated) continue;
         const auto& choices = relabelling.choices(pack, values, uses.affected_by({&number, 1}));
