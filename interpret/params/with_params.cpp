@@ -1,3 +1,5 @@
+#include "interpret/params/with_params.h"
+
 #include "interpret/compile/checker.h"
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/findings.h"
@@ -6,7 +8,6 @@
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/params/find_fault.h"
-#include "interpret/params/with_params.h"
 #include "kernel/base/index.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/suggest.h"

@@ -89,21 +89,21 @@ std::optional<YamlNode> without_end(const YamlNode& node) {
   return low;
 }
 
-struct CountRange {
+struct LimitRange {
   FixedValue low;
   /// Missing: no end.
   std::optional<FixedValue> high;
 };
 
 /// `lo .. hi` or `lo ..`; what stands there is checked, and nothing is given if it is wrong.
-std::optional<CountRange> read_counts(const YamlNode& node, Loader& loader) {
+std::optional<LimitRange> read_counts(const YamlNode& node, Loader& loader) {
   if (const auto low = without_end(node)) {
     const auto value = read_quantity(*low, Dimension{}, loader);
-    return value ? std::optional(CountRange{*value, {}}) : std::nullopt;
+    return value ? std::optional(LimitRange{*value, {}}) : std::nullopt;
   }
   const auto range = read_range(node, Dimension{}, loader);
   if (!range) return std::nullopt;
-  return CountRange{{range->low, {}, range->low_expr},
+  return LimitRange{{range->low, {}, range->low_expr},
                     FixedValue{range->high, {}, range->high_expr}};
 }
 
