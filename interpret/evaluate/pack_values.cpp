@@ -30,6 +30,7 @@ void PackValues::set(const Pack& pack, std::size_t param, double value) {
 }
 
 void PackValues::read_settings(const Pack& pack) {
+  static_cast<PackSettings&>(*this) = {};
   const auto read = [&](ExprId id, double& value) {
     if (id != kNoExpr) value = fold(pack, id, params).value_or(value);
   };
