@@ -169,7 +169,7 @@ void TargetDrawer::redraw_unchanged(const DrawingSource& source, Generalised& ge
   if (!generalised.removed.empty() || !generalised.changed.empty()) return;
   const auto findings = validate(building_);
   if (findings.empty()) return;
-  if (check_output(document_, building_, *source.result->solid)) {
+  if (!source.is_parted && check_output(document_, building_, *source.result->solid)) {
     drawn.fault = invalid_before(
         building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence));
     return;
@@ -230,6 +230,7 @@ SeriesLevel TargetDrawer::untouched(Drawn& drawn) const {
   do {
     context.undrawn = faulty.ids();
     level.redrawn = redraw(context, level.generalised);
+    finish(*drawn.source, level.redrawn.labelled);
   } while (
       faulty.add(document_, building_, *result.segmentation, *level.redrawn.labelled.geometry));
   keep(faulty.issues(result.description.table), drawn);

@@ -62,8 +62,8 @@ std::optional<Issue> make_valid(const Document& document, const Building& buildi
   if (options.repair.crossings != Crossings::cut) return fault;
   auto again = repaired_solid(document, building, options.tolerances, options, work);
   if (!again) return fault;
-  out.solid = made_valid(document, building, *again->solid);
-  out.report = std::move(again->repair);
+  out.solid = again->mended ? std::move(again->mended) : std::move(again->made.solid);
+  out.report = std::move(again->made.repair);
   return std::nullopt;
 }
 

@@ -12,12 +12,10 @@
 
 namespace oriel {
 
-/// A solid that was made for a building, as far as the solid, and how it is to be drawn.
-struct DrawingLadder::MadeSolid {
-  PipelineResult made;
+/// A solid that was made for a building, and how it is to be drawn.
+struct DrawingLadder::MadeSolid : RepairedSolid {
   Work work;
   bool is_repaired = false;
-  bool is_folded = false;  ///< it is valid only once it is mended
 };
 
 Drawn DrawingLadder::run(const PipelineResult& result) {
@@ -31,8 +29,8 @@ Drawn DrawingLadder::run(const PipelineResult& result) {
   } else {
     Work work = drawing_work(options_.budget);
     if (auto cut = cut_solid(document_, building_, result.tolerances, options_, work)) {
-      warning = repaired_first(building_, cut->repair);
-      add(std::move(*cut), drawing_work(options_.budget), false, solids);
+      warning = repaired_first(building_, cut->made.repair);
+      solids.push_back({std::move(*cut), drawing_work(options_.budget), false});
       draw_from(solids.back(), false);
     }
     if (tried_.empty()) return left_open(work);
@@ -56,25 +54,19 @@ void DrawingLadder::climb(std::vector<MadeSolid> solids) {
   Work work(options_.budget);
   if (auto made = repaired_solid(document_, building_, tried_[0].source->result->tolerances,
                                  options_, work)) {
-    add(std::move(*made), work, true, solids);
+    solids.push_back({std::move(*made), work, true});
     draw_from(solids.back(), false);
   }
   for (const MadeSolid& solid : solids) {
-    // Another one would not be cut into fewer pieces.
+    // What is cut into more pieces would not be finished either.
     if (is_done() || tried_.back().is_unfinished()) break;
-    if (solid.is_folded) draw_from(solid, true);
+    if (solid.mended) draw_from(solid, true);
   }
   if (!is_done()) draw_without_imprints();
 }
 
 bool DrawingLadder::is_done() const {
   return std::ranges::any_of(tried_, [](const Drawn& one) { return one.rank() == Drawn::kBest; });
-}
-
-void DrawingLadder::add(PipelineResult made, const Work& work, bool is_repaired,
-                        std::vector<MadeSolid>& solids) const {
-  const bool is_folded = check_output(document_, building_, *made.solid).has_value();
-  solids.push_back({std::move(made), work, is_repaired, is_folded});
 }
 
 RedrawContext DrawingLadder::context_of(const Drawn& drawn, SolidJudge* judge) const {
@@ -128,14 +120,14 @@ void DrawingLadder::draw_from(const std::shared_ptr<DrawingSource>& source) {
 
 void DrawingLadder::draw_from(const MadeSolid& solid, bool is_mended) {
   PipelineResult made = solid.made;
-  if (is_mended) made.solid = made_valid(document_, building_, *made.solid);
+  if (is_mended) made.solid = solid.mended;
   const Tolerances tolerances = made.tolerances;
   auto result = std::make_shared<const PipelineResult>(
       run_from_solid(std::move(made), building_, &rules_, tolerances, options_));
   if (!result->is_done() || result->is_open()) return;
   const auto source = source_of(std::move(result), solid.work);
   source->is_repaired = solid.is_repaired;
-  source->is_parted = solid.is_folded && !is_mended;
+  source->is_parted = solid.mended && !is_mended;
   draw_from(source);
   if (solid.is_repaired)
     tried_.back().issues.insert(tried_.back().issues.begin(),

@@ -66,8 +66,7 @@ struct Drawn {
 /// Draws one building so that it is valid as it is written, in the first of these ways that is:
 ///
 /// 1. as its plan asks, from its own solid, an open one from its cut_solid() (G420)
-/// 2. with every step judged, unless the building came invalid: then no step can be told to spoil
-/// it
+/// 2. with every step judged, unless the building came invalid: no step can be told to spoil it
 /// 3. from its repaired_solid() (G417), as 1 and 2
 /// 4. from these solids mended before they are segmented: facets that are parted have planes of
 ///    their own, which cut features into pieces
@@ -90,10 +89,10 @@ class DrawingLadder {
   virtual void draw_levels(Drawn& drawn) = 0;
   /// Says why they must not be written as they are.
   virtual void check(Drawn& drawn) = 0;
-  /// Nobody waits for it any longer.
+  /// Says whether nobody waits for it any longer.
   virtual bool is_given_up(Stage /*stage*/) { return false; }
 
-  /// What is drawn is drawn with. `judge` may be null.
+  /// Returns what `drawn` is drawn with. `judge` may be null.
   [[nodiscard]] RedrawContext context_of(const Drawn& drawn, SolidJudge* judge) const;
   /// Parts what would be folded as it is written, of a source that is repaired or parted.
   void finish(const DrawingSource& source, LabelledBuilding& labelled) const;
@@ -110,16 +109,14 @@ class DrawingLadder {
 
   std::shared_ptr<DrawingSource> source_of(std::shared_ptr<const PipelineResult> result,
                                            Work work) const;
-  void add(PipelineResult made, const Work& work, bool is_repaired,
-           std::vector<MadeSolid>& solids) const;
   [[nodiscard]] Drawn left_open(const Work& work) const;
-  /// The rungs after the first; `solids` are those that were made by then.
+  /// Tries the rungs after the first; `solids` are those that were made by then.
   void climb(std::vector<MadeSolid> solids);
-  /// One that was tried is the best.
+  /// Says whether one that was tried is the best.
   [[nodiscard]] bool is_done() const;
   Drawn drawn_as(const std::shared_ptr<DrawingSource>& source, Judging judging,
                  std::vector<FeatureId> undrawn = {});
-  /// As its plan asks, and where that is not valid with every step judged.
+  /// Draws as the plan asks, and where that is not valid with every step judged.
   void draw_from(const std::shared_ptr<DrawingSource>& source);
   void draw_from(const MadeSolid& solid, bool is_mended);
   void draw_without_imprints();

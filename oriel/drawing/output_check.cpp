@@ -124,19 +124,15 @@ std::optional<Issue> check_redrawn(const Document& document, const Building& bui
   return fault;
 }
 
-void mend_written(const Document& document, const Building& building, Solid& solid) {
-  for (int i = 0; i < kPartings; ++i) {
-    auto parted = parted_once(document, building, solid);
-    if (!parted) return;
-    solid = std::move(parted->solid);
-  }
-}
-
 std::optional<Solid> made_valid(const Document& document, const Building& building,
                                 const Solid& solid) {
   if (!check_output(document, building, solid)) return solid;
   Solid mended = solid;
-  mend_written(document, building, mended);
+  for (int i = 0; i < kPartings; ++i) {
+    auto parted = parted_once(document, building, mended);
+    if (!parted) break;
+    mended = std::move(parted->solid);
+  }
   if (check_output(document, building, mended)) return std::nullopt;
   return mended;
 }

@@ -39,19 +39,17 @@ std::vector<Issue> invalid_rest(const Document& document, const Building& buildi
 /// The error G413.
 Issue invalid_before(const Building& building, const std::string& why);
 
-/// Of what is to be written in the place of the polygons of `building`, welds what is one point in
-/// the file (weld_written), and parts facets that would be folded there (part_folded), if nothing
-/// else is wrong. Whether the rest is valid has to be judged.
-void mend_written(const Document& document, const Building& building, Solid& solid);
-
-/// A solid that is valid as it is written: as it is, or mended; nothing if neither is.
+/// Returns a solid that is valid as it is written in the place of the polygons of `building`: as it
+/// is, or mended, with what is one point in the file welded (weld_written) and facets that would be
+/// folded there parted (part_folded); nothing if neither is.
 std::optional<Solid> made_valid(const Document& document, const Building& building,
                                 const Solid& solid);
 
-/// The same with labels: what is left of facets is what they were.
+/// Mends what is to be written with its labels: what is left of facets is what they were. Whether
+/// the rest is valid has to be judged.
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled);
 
-/// Judges solids to be written in the place of the polygons of a building, whose solid is `own`.
+/// Judge of solids to be written in the place of the polygons of a building, whose solid is `own`.
 /// Each judgement is counted in the work; once that is used up, or nobody waits, all is unfit, and
 /// no work is left. Refers to all that it is made of. `is_parted`: `own` is valid once it is
 /// mended, and so will be what is written.

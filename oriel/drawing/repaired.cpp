@@ -22,6 +22,15 @@ struct Times {
 };
 constexpr std::array<Times, 4> kTimes{{{1, 1}, {0.5, 1}, {2.5, 2.5}, {5, 5}}};
 
+/// Nothing if the solid is not valid as it is written, mended or not.
+std::optional<RepairedSolid> valid_one(const Document& document, const Building& building,
+                                       PipelineResult made) {
+  if (!check_output(document, building, *made.solid)) return RepairedSolid{std::move(made)};
+  auto mended = made_valid(document, building, *made.solid);
+  if (!mended) return std::nullopt;
+  return RepairedSolid{std::move(made), std::move(mended)};
+}
+
 }  // namespace
 
 Issue redrawn_from_inside(const Building& building, const RepairReport& report) {
@@ -36,15 +45,15 @@ Issue redrawn_from_inside(const Building& building, const RepairReport& report) 
                                     why, counted(report.cut, "polygon")));
 }
 
-std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
-                                        const Tolerances& tolerances,
-                                        const PipelineOptions& options, Work& work) {
+std::optional<RepairedSolid> cut_solid(const Document& document, const Building& building,
+                                       const Tolerances& tolerances, const PipelineOptions& options,
+                                       Work& work) {
   RepairOptions cutting = options.repair;
   cutting.crossings = Crossings::cut;
   PipelineResult cut = run_to_solid(building, tolerances, cutting, work, options.observer);
   if (!cut.solid || work.is_used_up()) return std::nullopt;
   cut.tolerances = tolerances;
-  if (made_valid(document, building, *cut.solid)) return cut;
+  if (auto valid = valid_one(document, building, std::move(cut))) return valid;
   return repaired_solid(document, building, tolerances, options, work);
 }
 
@@ -59,9 +68,9 @@ Issue repaired_first(const Building& building, const RepairReport& report) {
                   counted(report.caps.size(), "hole"), closed_m2));
 }
 
-std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
-                                             const Tolerances& tolerances,
-                                             const PipelineOptions& options, Work& work) {
+std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
+                                            const Tolerances& tolerances,
+                                            const PipelineOptions& options, Work& work) {
   RepairOptions repair = options.repair;
   repair.crossings = Crossings::cut_closed;
   for (const Times& times : kTimes) {
@@ -72,7 +81,7 @@ std::optional<PipelineResult> repaired_solid(const Document& document, const Bui
     if (work.is_used_up()) return std::nullopt;
     made.tolerances = tried;
     if (!made.solid) continue;
-    if (made_valid(document, building, *made.solid)) return made;
+    if (auto valid = valid_one(document, building, std::move(made))) return valid;
   }
   return std::nullopt;
 }

@@ -9,20 +9,27 @@
 
 namespace oriel {
 
-/// The solid of a building whose own solid would not be valid as it is written: its surface runs
-/// through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), with the
-/// tolerances given, or finer or up to five times coarser ones if they do not help. It is valid as
-/// it is written once it is mended (made_valid). Nothing if none is, or once `work` is used up;
-/// else the result as far as the solid, with the tolerances that it was made with.
-std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
-                                             const Tolerances& tolerances,
-                                             const PipelineOptions& options, Work& work);
+/// A solid that was made for a building: the result as far as the solid, with the tolerances that
+/// it was made with.
+struct RepairedSolid {
+  PipelineResult made;
+  /// The solid mended (made_valid), if only that is valid as it is written.
+  std::optional<Solid> mended{};
+};
 
-/// The solid that repair() makes of an open building: with crossings cut, or if that cannot be made
-/// valid its repaired_solid(); otherwise as that.
-std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
-                                        const Tolerances& tolerances,
-                                        const PipelineOptions& options, Work& work);
+/// Makes the solid of a building whose own solid would not be valid as it is written: its surface
+/// runs through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), with
+/// the tolerances given, or finer or up to five times coarser ones if they do not help. Nothing if
+/// none is valid as it is written, mended or not, or once `work` is used up.
+std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
+                                            const Tolerances& tolerances,
+                                            const PipelineOptions& options, Work& work);
+
+/// Makes the solid that repair() makes of an open building: with crossings cut, or if that cannot
+/// be made valid its repaired_solid(); otherwise as that.
+std::optional<RepairedSolid> cut_solid(const Document& document, const Building& building,
+                                       const Tolerances& tolerances, const PipelineOptions& options,
+                                       Work& work);
 
 /// The warning G417 that a building is drawn from its repaired_solid().
 Issue redrawn_from_inside(const Building& building, const RepairReport& report);
