@@ -4,7 +4,6 @@
 #include "generalise/to_lod.h"
 #include "io/levels/written_grid.h"
 #include "kernel/mesh/measures.h"
-#include "kernel/validate/validate.h"
 #include "oriel/drawing/drawing_quality.h"
 #include "oriel/drawing/faulty_imprints.h"
 #include "oriel/drawing/ladder.h"
@@ -84,8 +83,8 @@ bool keep(const std::vector<Issue>& issues, Drawn& drawn) {
 
 void TargetDrawer::draw_levels(Drawn& drawn) {
   const PipelineResult& result = *drawn.source->result;
-  WrittenJudge judge(document_, building_, *result.solid, drawn.source->is_parted,
-                     drawn.source->work, [this] { return is_given_up(Stage::generalise); });
+  WrittenJudge judge(*check_, *result.solid, drawn.source->is_parted, drawn.source->work,
+                     [this] { return is_given_up(Stage::generalise); });
   RedrawContext context = context_of(drawn, &judge);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
   for (std::size_t i = 0; i < count && !is_given_up(Stage::generalise); ++i) {
@@ -167,9 +166,9 @@ Checked<Generalised> TargetDrawer::carried_out(const Profile* profile, const Red
 void TargetDrawer::redraw_unchanged(const DrawingSource& source, Generalised& generalised,
                                     Drawn& drawn) const {
   if (!generalised.removed.empty() || !generalised.changed.empty()) return;
-  const auto findings = validate(building_);
+  const auto& findings = check_->findings_as_read();
   if (findings.empty()) return;
-  if (!source.is_parted && check_output(document_, building_, *source.result->solid)) {
+  if (!source.is_parted && !check_->findings(*source.result->solid).empty()) {
     drawn.fault = invalid_before(
         building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence));
     return;
@@ -231,8 +230,7 @@ SeriesLevel TargetDrawer::untouched(Drawn& drawn) const {
     context.undrawn = faulty.ids();
     level.redrawn = redraw(context, level.generalised);
     finish(*drawn.source, level.redrawn.labelled);
-  } while (
-      faulty.add(document_, building_, *result.segmentation, *level.redrawn.labelled.geometry));
+  } while (faulty.add(*check_, *result.segmentation, *level.redrawn.labelled.geometry));
   keep(faulty.issues(result.description.table), drawn);
   return level;
 }

@@ -52,15 +52,15 @@ LabelledBuilding output_of(const Building& building, const Repaired& repaired,
 
 /// Makes the solid one that is valid as it is written: as it is, mended, or redrawn. Why it could
 /// not be done.
-std::optional<Issue> make_valid(const Document& document, const Building& building,
-                                const PipelineOptions& options, Repaired& out, Work& work) {
-  if (auto made = made_valid(document, building, *out.solid)) {
+std::optional<Issue> make_valid(OutputCheck& check, const PipelineOptions& options, Repaired& out,
+                                Work& work) {
+  if (auto made = check.made_valid(*out.solid)) {
     out.solid = std::move(made);
     return std::nullopt;
   }
-  const auto fault = check_output(document, building, *out.solid);
+  auto fault = check.fault(*out.solid);
   if (options.repair.crossings != Crossings::cut) return fault;
-  auto again = repaired_solid(document, building, options.tolerances, options, work);
+  auto again = repaired_solid(check, options.tolerances, options, work);
   if (!again) return fault;
   out.solid = again->mended ? std::move(again->mended) : std::move(again->made.solid);
   out.report = std::move(again->made.repair);
@@ -73,7 +73,8 @@ Repaired checked_solid(const Document& document, const Building& building, Pipel
   std::ranges::move(invalid_rest(document, building, false), std::back_inserter(out.issues));
   if (!out.solid) return out;
   Work work(options.budget);
-  auto fault = make_valid(document, building, options, out, work);
+  OutputCheck check(document, building);
+  auto fault = make_valid(check, options, out, work);
   if (fault && work.is_used_up())
     out.issues.push_back(used_up(building.id, work.budget(), "repairing",
                                  "not all ways to make it valid were tried"));
@@ -125,7 +126,8 @@ Checked<LabelledBuilding> on_solid(const Document& document, const Building& bui
   whole.closing = closing_faces(whole.solid);
   LabelledBuilding drawn =
       redraw(redraw_context(building, result, labelled), std::move(whole)).labelled;
-  if (const auto fault = check_output(document, building, *drawn.geometry)) return {{}, {*fault}};
+  if (const auto fault = OutputCheck(document, building).fault(*drawn.geometry))
+    return {{}, {*fault}};
   return {std::move(drawn), {}};
 }
 

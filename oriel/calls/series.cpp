@@ -80,8 +80,7 @@ class LevelDrawer : public DrawingLadder, public SeriesOrder {
  private:
   void draw_levels(Drawn& drawn) override {
     from_ = drawn.source;
-    WrittenJudge judge(document_, building_, *from_->result->solid, from_->is_parted,
-                       drawn.source->work);
+    WrittenJudge judge(*check_, *from_->result->solid, from_->is_parted, drawn.source->work);
     auto levels = series_levels(context_of(drawn, &judge), *this, scales_);
     drawn.issues = std::move(levels.issues);
     if (levels.value) drawn.levels = std::move(*levels.value);

@@ -1,7 +1,6 @@
 #include "oriel/drawing/faulty_imprints.h"
 
 #include "kernel/base/indexed_vector.h"
-#include "oriel/drawing/output_check.h"
 
 #include <algorithm>
 #include <array>
@@ -18,13 +17,12 @@ constexpr int kLooksForImprints = 2;
 
 }  // namespace
 
-bool FaultyImprints::add(const Document& document, const Building& building,
-                         const Segmentation& segmentation, const Solid& solid) {
+bool FaultyImprints::add(OutputCheck& check, const Segmentation& segmentation, const Solid& solid) {
   const auto key_of = [](const Plane& plane) {
     return std::pair(plane.coefficients, plane.offset);
   };
   std::set<std::pair<std::array<std::int64_t, 3>, std::int64_t>> faulty;
-  const auto findings = findings_as_written(document, building, solid);
+  const auto& findings = check.findings(solid);
   if (findings.empty()) return false;
   for (const Finding& finding : findings)
     if (finding.polygon >= 0)

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "io/document.h"
 #include "kernel/base/issue.h"
 #include "model/description/feature_table.h"
 #include "model/segmentation.h"
 #include "model/solid.h"
+#include "oriel/drawing/output_check.h"
 
 #include <vector>
 
@@ -15,8 +15,7 @@ class FaultyImprints {
  public:
   /// Adds those drawn in `solid` that lie in the planes of facets that are not valid as they are
   /// written, and from the third time on all. False if there are no more than were known.
-  bool add(const Document& document, const Building& building, const Segmentation& segmentation,
-           const Solid& solid);
+  bool add(OutputCheck& check, const Segmentation& segmentation, const Solid& solid);
 
   /// Ascending.
   [[nodiscard]] const std::vector<FeatureId>& ids() const { return ids_; }

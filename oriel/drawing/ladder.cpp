@@ -1,7 +1,6 @@
 #include "oriel/drawing/ladder.h"
 
 #include "oriel/drawing/faulty_imprints.h"
-#include "oriel/drawing/output_check.h"
 #include "oriel/drawing/repaired.h"
 #include "oriel/drawing/targets.h"
 #include "oriel/pipeline/pipeline.h"
@@ -28,7 +27,7 @@ Drawn DrawingLadder::run(const PipelineResult& result) {
     draw_from(source_of(own, drawing_work(options_.budget)));
   } else {
     Work work = drawing_work(options_.budget);
-    if (auto cut = cut_solid(document_, building_, result.tolerances, options_, work)) {
+    if (auto cut = cut_solid(*check_, result.tolerances, options_, work)) {
       warning = repaired_first(building_, cut->made.repair);
       solids.push_back({std::move(*cut), drawing_work(options_.budget), false});
       draw_from(solids.back(), false);
@@ -52,8 +51,7 @@ Drawn DrawingLadder::left_open(const Work& work) const {
 
 void DrawingLadder::climb(std::vector<MadeSolid> solids) {
   Work work(options_.budget);
-  if (auto made = repaired_solid(document_, building_, tried_[0].source->result->tolerances,
-                                 options_, work)) {
+  if (auto made = repaired_solid(*check_, tried_[0].source->result->tolerances, options_, work)) {
     solids.push_back({std::move(*made), work, true});
     draw_from(solids.back(), false);
   }
@@ -81,12 +79,12 @@ RedrawContext DrawingLadder::context_of(const Drawn& drawn, SolidJudge* judge) c
 }
 
 void DrawingLadder::finish(const DrawingSource& source, LabelledBuilding& labelled) const {
-  if (source.is_parted || source.is_repaired) part_written(document_, building_, labelled);
+  if (source.is_parted || source.is_repaired) check_->part(labelled);
 }
 
 std::optional<Issue> DrawingLadder::fault_of(const DrawingSource& source,
                                              const Solid& solid) const {
-  return check_redrawn(document_, building_, *source.result->solid, source.is_parted, solid);
+  return check_->fault_of_redrawn(*source.result->solid, source.is_parted, solid);
 }
 
 std::shared_ptr<DrawingSource> DrawingLadder::source_of(
@@ -131,7 +129,7 @@ void DrawingLadder::draw_from(const MadeSolid& solid, bool is_mended) {
   draw_from(source);
   if (solid.is_repaired)
     tried_.back().issues.insert(tried_.back().issues.begin(),
-                                redrawn_from_inside(building_, solid.made.repair));
+                                redrawn_from_inside(*check_, solid.made.repair));
 }
 
 void DrawingLadder::draw_without_imprints() {
@@ -142,7 +140,7 @@ void DrawingLadder::draw_without_imprints() {
     bool has_more = false;
     for (const SeriesLevel& level : drawn.levels)
       if (const auto& solid = level.redrawn.labelled.geometry)
-        has_more |= faulty.add(document_, building_, *result.segmentation, *solid);
+        has_more |= faulty.add(*check_, *result.segmentation, *solid);
     return has_more;
   };
   Drawn drawn = first;

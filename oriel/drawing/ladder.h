@@ -7,6 +7,7 @@
 #include "kernel/base/issue.h"
 #include "kernel/base/work.h"
 #include "model/labelled_building.h"
+#include "oriel/drawing/output_check.h"
 #include "oriel/generalise.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
@@ -31,9 +32,9 @@ struct DrawingSource {
   std::shared_ptr<const PipelineResult> result;
   LabelledBuilding labelled;  ///< what annotate() says of it
   Work work;                  ///< of all targets and all ways that are tried with it
-  /// It is a repaired_solid(): what would be folded as it is written is parted (part_written).
+  /// It is a repaired_solid(): what would be folded as it is written is parted (OutputCheck::part).
   bool is_repaired = false;
-  /// Its solid is valid only once it is mended (made_valid), and so is what is drawn.
+  /// Its solid is valid only once it is mended (OutputCheck::made_valid), and so is what is drawn.
   bool is_parted = false;
   std::shared_ptr<detail::BuildingCells> cells{};
 };
@@ -78,7 +79,11 @@ class DrawingLadder {
  public:
   DrawingLadder(const Document& document, const Building& building, const RuleBase& rules,
                 const LabelOptions& options)
-      : document_(document), building_(building), rules_(rules), options_(options) {}
+      : document_(document),
+        building_(building),
+        rules_(rules),
+        options_(options),
+        check_(std::make_unique<OutputCheck>(document, building)) {}
   virtual ~DrawingLadder() = default;
 
   /// `result` is what label() said of the building; it must outlive what is drawn.
@@ -103,6 +108,7 @@ class DrawingLadder {
   const Building& building_;
   const RuleBase& rules_;
   const LabelOptions& options_;
+  const std::unique_ptr<OutputCheck> check_;  ///< of all that is tried
 
  private:
   struct MadeSolid;

@@ -19,30 +19,6 @@ namespace oriel {
 
 namespace {
 
-std::vector<Finding> findings_for_any(const Building& written) {
-  ValidateOptions options;
-  options.judge = ValidateOptions::Judge::any;
-  return validate(written, options);
-}
-
-}  // namespace
-
-std::vector<Finding> findings_as_written(const Document& document, const Building& building,
-                                         const Solid& solid) {
-  return findings_for_any(as_written(document, building, solid));
-}
-
-std::optional<Issue> check_output(const Document& document, const Building& building,
-                                  const Solid& solid) {
-  const auto findings = findings_as_written(document, building, solid);
-  if (findings.empty()) return {};
-  return {building_issue(Severity::error, Code::E318, building.id,
-                         fmt::format("the repaired solid is not valid: {} {}",
-                                     to_string(findings[0].code), findings[0].sentence))};
-}
-
-namespace {
-
 /// What judging a solid as it is written takes, for each of its corners.
 constexpr std::int64_t kStepsPerJudging = 128;
 
@@ -71,18 +47,14 @@ void put_parted(PartedSolid parted, LabelledBuilding& labelled) {
   }
 }
 
-/// Welds what is written as one point, else parts facets that are folded as they are written.
-/// Nothing if there is neither, or if something else is wrong, too.
-std::optional<PartedSolid> parted_once(const Document& document, const Building& building,
-                                       const Solid& solid) {
-  const Building written = as_written(document, building, solid);
-  const auto findings = findings_for_any(written);
-  auto welded = weld_written(solid, written, findings);
-  return welded ? std::move(welded) : part_folded(solid, written, findings);
-}
-
-bool can_be_valid(const Document& document, const Building& building, const Solid& own) {
-  return validate(building).empty() || !check_output(document, building, own);
+/// All that findings depend on is the same.
+bool have_one_shape(const Solid& p, const Solid& q) {
+  const auto are_alike = [](const Shell& one, const Shell& other) {
+    return one.facets == other.facets && one.lump == other.lump && one.is_cavity == other.is_cavity;
+  };
+  return std::ranges::equal(p.vertices, q.vertices, {}, &Vertex::point, &Vertex::point) &&
+         std::ranges::equal(p.facets, q.facets, {}, &Facet::loops, &Facet::loops) &&
+         std::ranges::equal(p.shells, q.shells, are_alike);
 }
 
 }  // namespace
@@ -112,34 +84,66 @@ Issue invalid_before(const Building& building, const std::string& why) {
                         "is not valid as written, and was not valid in the input: " + why);
 }
 
-std::optional<Issue> check_redrawn(const Document& document, const Building& building,
-                                   const Solid& own, bool is_parted, const Solid& solid) {
-  auto fault = check_output(document, building, solid);
-  if (!fault) return fault;
-  std::string why = fault->sentence;
-  why.erase(0, why.find(": ") + 2);
-  if (!is_parted && !can_be_valid(document, building, own)) return {invalid_before(building, why)};
-  fault->code = Code::G410;
-  fault->sentence = "would not be valid as written: " + why;
-  return fault;
+const std::vector<Finding>& OutputCheck::findings_as_read() {
+  if (!as_read_) as_read_ = validate(building_);
+  return *as_read_;
 }
 
-std::optional<Solid> made_valid(const Document& document, const Building& building,
-                                const Solid& solid) {
-  if (!check_output(document, building, solid)) return solid;
-  Solid mended = solid;
+const std::vector<Finding>& OutputCheck::findings(const Solid& solid) {
+  const auto known = std::ranges::find_if(
+      judged_, [&](const Judged& one) { return have_one_shape(one.solid, solid); });
+  if (known != judged_.end()) return known->findings;
+  ValidateOptions options;
+  options.judge = ValidateOptions::Judge::any;
+  return judged_.emplace_back(solid, validate(as_written(document_, building_, solid), options))
+      .findings;
+}
+
+std::optional<Issue> OutputCheck::fault(const Solid& solid) {
+  const auto& found = findings(solid);
+  if (found.empty()) return {};
+  return {building_issue(Severity::error, Code::E318, building_.id,
+                         fmt::format("the repaired solid is not valid: {} {}",
+                                     to_string(found[0].code), found[0].sentence))};
+}
+
+std::optional<Issue> OutputCheck::fault_of_redrawn(const Solid& own, bool is_parted,
+                                                   const Solid& solid) {
+  const auto& found = findings(solid);
+  if (found.empty()) return {};
+  const std::string why = fmt::format("{} {}", to_string(found[0].code), found[0].sentence);
+  if (!is_parted && !can_be_valid(own)) return {invalid_before(building_, why)};
+  return {building_issue(Severity::error, Code::G410, building_.id,
+                         "would not be valid as written: " + why)};
+}
+
+bool OutputCheck::can_be_valid(const Solid& own) {
+  return findings_as_read().empty() || findings(own).empty();
+}
+
+/// Welds what is written as one point, else parts facets that are folded as they are written.
+/// Nothing if there is neither, or if something else is wrong, too.
+std::optional<PartedSolid> OutputCheck::parted_once(const Solid& solid) {
+  const auto& found = findings(solid);
+  if (found.empty()) return std::nullopt;
+  const Building written = as_written(document_, building_, solid);
+  auto welded = weld_written(solid, written, found);
+  return welded ? std::move(welded) : part_folded(solid, written, found);
+}
+
+std::optional<Solid> OutputCheck::made_valid(Solid solid) {
   for (int i = 0; i < kPartings; ++i) {
-    auto parted = parted_once(document, building, mended);
+    auto parted = parted_once(solid);
     if (!parted) break;
-    mended = std::move(parted->solid);
+    solid = std::move(parted->solid);
   }
-  if (check_output(document, building, mended)) return std::nullopt;
-  return mended;
+  if (!findings(solid).empty()) return std::nullopt;
+  return solid;
 }
 
-void part_written(const Document& document, const Building& building, LabelledBuilding& labelled) {
+void OutputCheck::part(LabelledBuilding& labelled) {
   for (int i = 0; i < kPartings && labelled.geometry; ++i) {
-    auto parted = parted_once(document, building, *labelled.geometry);
+    auto parted = parted_once(*labelled.geometry);
     if (!parted) return;
     put_parted(std::move(*parted), labelled);
   }
@@ -149,11 +153,9 @@ Fitness WrittenJudge::fitness_of(const Solid& solid) {
   if (is_given_up_ && is_given_up_()) work_ = Work(-1);
   work_.add(kStepsPerJudging * corners_of(solid));
   if (work_.is_used_up()) return Fitness::unfit;
-  if (is_parted_ ? made_valid(document_, building_, solid).has_value()
-                 : !check_output(document_, building_, solid))
+  if (is_parted_ ? check_.made_valid(solid).has_value() : check_.findings(solid).empty())
     return Fitness::valid;
-  if (!can_be_valid_) can_be_valid_ = is_parted_ || can_be_valid(document_, building_, own_);
-  return *can_be_valid_ ? Fitness::unfit : Fitness::as_it_came;
+  return is_parted_ || check_.can_be_valid(own_) ? Fitness::unfit : Fitness::as_it_came;
 }
 
 Work drawing_work(std::int64_t budget) {

@@ -1,8 +1,6 @@
 #include "oriel/drawing/repaired.h"
 
 #include "kernel/base/text/counted.h"
-#include "kernel/validate/validate.h"
-#include "oriel/drawing/output_check.h"
 #include "oriel/pipeline/pipeline.h"
 
 #include <array>
@@ -23,38 +21,36 @@ struct Times {
 constexpr std::array<Times, 4> kTimes{{{1, 1}, {0.5, 1}, {2.5, 2.5}, {5, 5}}};
 
 /// Nothing if the solid is not valid as it is written, mended or not.
-std::optional<RepairedSolid> valid_one(const Document& document, const Building& building,
-                                       PipelineResult made) {
-  if (!check_output(document, building, *made.solid)) return RepairedSolid{std::move(made)};
-  auto mended = made_valid(document, building, *made.solid);
+std::optional<RepairedSolid> valid_one(OutputCheck& check, PipelineResult made) {
+  if (check.findings(*made.solid).empty()) return RepairedSolid{std::move(made)};
+  auto mended = check.made_valid(*made.solid);
   if (!mended) return std::nullopt;
   return RepairedSolid{std::move(made), std::move(mended)};
 }
 
 }  // namespace
 
-Issue redrawn_from_inside(const Building& building, const RepairReport& report) {
-  const auto findings = validate(building);
+Issue redrawn_from_inside(OutputCheck& check, const RepairReport& report) {
+  const auto& findings = check.findings_as_read();
   const std::string why = findings.empty()
                               ? "its surface"
                               : fmt::format("was not valid in the input ({} {}) and",
                                             to_string(findings[0].code), findings[0].sentence);
-  return building_issue(Severity::warning, Code::G417, building.id,
+  return building_issue(Severity::warning, Code::G417, check.building().id,
                         fmt::format("{} would not be valid as written: it is redrawn from the "
                                     "boundary of its interior, with {} cut",
                                     why, counted(report.cut, "polygon")));
 }
 
-std::optional<RepairedSolid> cut_solid(const Document& document, const Building& building,
-                                       const Tolerances& tolerances, const PipelineOptions& options,
-                                       Work& work) {
+std::optional<RepairedSolid> cut_solid(OutputCheck& check, const Tolerances& tolerances,
+                                       const PipelineOptions& options, Work& work) {
   RepairOptions cutting = options.repair;
   cutting.crossings = Crossings::cut;
-  PipelineResult cut = run_to_solid(building, tolerances, cutting, work, options.observer);
+  PipelineResult cut = run_to_solid(check.building(), tolerances, cutting, work, options.observer);
   if (!cut.solid || work.is_used_up()) return std::nullopt;
   cut.tolerances = tolerances;
-  if (auto valid = valid_one(document, building, std::move(cut))) return valid;
-  return repaired_solid(document, building, tolerances, options, work);
+  if (auto valid = valid_one(check, std::move(cut))) return valid;
+  return repaired_solid(check, tolerances, options, work);
 }
 
 Issue repaired_first(const Building& building, const RepairReport& report) {
@@ -68,8 +64,7 @@ Issue repaired_first(const Building& building, const RepairReport& report) {
                   counted(report.caps.size(), "hole"), closed_m2));
 }
 
-std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
-                                            const Tolerances& tolerances,
+std::optional<RepairedSolid> repaired_solid(OutputCheck& check, const Tolerances& tolerances,
                                             const PipelineOptions& options, Work& work) {
   RepairOptions repair = options.repair;
   repair.crossings = Crossings::cut_closed;
@@ -77,11 +72,11 @@ std::optional<RepairedSolid> repaired_solid(const Document& document, const Buil
     Tolerances tried = tolerances;
     tried.plane_offset_m *= times.plane_offset;
     tried.weld_m *= times.weld;
-    PipelineResult made = run_to_solid(building, tried, repair, work, options.observer);
+    PipelineResult made = run_to_solid(check.building(), tried, repair, work, options.observer);
     if (work.is_used_up()) return std::nullopt;
     made.tolerances = tried;
     if (!made.solid) continue;
-    if (auto valid = valid_one(document, building, std::move(made))) return valid;
+    if (auto valid = valid_one(check, std::move(made))) return valid;
   }
   return std::nullopt;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/document.h"
 #include "kernel/base/work.h"
+#include "oriel/drawing/output_check.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
 
@@ -13,7 +13,7 @@ namespace oriel {
 /// it was made with.
 struct RepairedSolid {
   PipelineResult made;
-  /// The solid mended (made_valid), if only that is valid as it is written.
+  /// The solid mended (OutputCheck::made_valid), if only that is valid as it is written.
   std::optional<Solid> mended{};
 };
 
@@ -21,18 +21,16 @@ struct RepairedSolid {
 /// runs through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), with
 /// the tolerances given, or finer or up to five times coarser ones if they do not help. Nothing if
 /// none is valid as it is written, mended or not, or once `work` is used up.
-std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
-                                            const Tolerances& tolerances,
+std::optional<RepairedSolid> repaired_solid(OutputCheck& check, const Tolerances& tolerances,
                                             const PipelineOptions& options, Work& work);
 
 /// Makes the solid that repair() makes of an open building: with crossings cut, or if that cannot
 /// be made valid its repaired_solid(); otherwise as that.
-std::optional<RepairedSolid> cut_solid(const Document& document, const Building& building,
-                                       const Tolerances& tolerances, const PipelineOptions& options,
-                                       Work& work);
+std::optional<RepairedSolid> cut_solid(OutputCheck& check, const Tolerances& tolerances,
+                                       const PipelineOptions& options, Work& work);
 
 /// The warning G417 that a building is drawn from its repaired_solid().
-Issue redrawn_from_inside(const Building& building, const RepairReport& report);
+Issue redrawn_from_inside(OutputCheck& check, const RepairReport& report);
 
 /// The warning G420 that an open building is drawn from its cut_solid().
 Issue repaired_first(const Building& building, const RepairReport& report);

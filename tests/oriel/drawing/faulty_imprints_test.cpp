@@ -52,8 +52,9 @@ TEST_SUITE("oriel") {
     const Solid drawn = draw_imprints(*result.solid, *result.segmentation, imprints);
     REQUIRE(drawn.facets.size() == 9);
 
+    OutputCheck check(document, building);
     FaultyImprints faulty;
-    CHECK_FALSE(faulty.add(document, building, *result.segmentation, drawn));
+    CHECK_FALSE(faulty.add(check, *result.segmentation, drawn));
     CHECK(faulty.issues(result.description.table).empty());
 
     // A corner of a pane beyond the other side of its pane: rings cross.
@@ -61,7 +62,7 @@ TEST_SUITE("oriel") {
     const auto corner = std::ranges::find(crossing.vertices, Vec3{3, 0, 2}, &Vertex::point);
     REQUIRE(corner != crossing.vertices.end());
     corner->point = {1.5, 0, 0.5};
-    CHECK(faulty.add(document, building, *result.segmentation, crossing));
+    CHECK(faulty.add(check, *result.segmentation, crossing));
     CHECK(faulty.ids().size() == 2);
     const auto issues = faulty.issues(result.description.table);
     REQUIRE(issues.size() == 2);
@@ -70,8 +71,8 @@ TEST_SUITE("oriel") {
       CHECK(issue.severity == Severity::warning);
       CHECK_FALSE(issue.place.feature.empty());
     }
-    CHECK_FALSE(faulty.add(document, building, *result.segmentation, crossing));
-    CHECK(faulty.add(document, building, *result.segmentation, crossing));
+    CHECK_FALSE(faulty.add(check, *result.segmentation, crossing));
+    CHECK(faulty.add(check, *result.segmentation, crossing));
     CHECK(faulty.ids() == imprints);
   }
 }
