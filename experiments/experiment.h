@@ -1,9 +1,9 @@
 #pragma once
 
-/// Experiments on rules (docs/experiments.md): load_experiment_file, experiment_schema,
+/// Experiments on rules (docs/experiments.md): load_experiment_file, plan_grammar,
 /// check_experiment, run_experiment, report_files.
 #include "experiments/plan/experiment_plan.h"  // IWYU pragma: export
-#include "experiments/plan/plan_schema.h"      // IWYU pragma: export
+#include "experiments/plan/plan_grammar.h"     // IWYU pragma: export
 #include "experiments/report/report.h"         // IWYU pragma: export
 #include "experiments/results/results.h"       // IWYU pragma: export
 #include "kernel/base/issue.h"

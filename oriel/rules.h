@@ -1,19 +1,22 @@
 #pragma once
 
 /// Rule packs and profiles: load_pack_file, format_pack_file, merge_pack_file,
-/// pack_schema, describe_pack_file, load_profile_file and check_profile, and their tests
-/// (docs/rules.md); packs with params at other values: with_params; what packs can say:
-/// attribute_words, relation_words, operator_words; what the documentation says of a code: page_of.
-/// What is wrong with a pack comes back as issues with codes, all at once.
-#include "interpret/pack/contents.h"       // IWYU pragma: export
-#include "interpret/pack/pack_schema.h"    // IWYU pragma: export
-#include "interpret/pack/rule_base.h"      // IWYU pragma: export
-#include "interpret/pack/starter.h"        // IWYU pragma: export
-#include "interpret/pack/vocabulary.h"     // IWYU pragma: export
-#include "interpret/params/with_params.h"  // IWYU pragma: export
-#include "interpret/plan/profile.h"        // IWYU pragma: export
-#include "interpret/testing/rule_tests.h"  // IWYU pragma: export
-#include "oriel/reference/code_page.h"     // IWYU pragma: export
+/// describe_pack_file, load_profile_file and check_profile, and their tests (docs/rules.md); the
+/// keys of each: pack_grammar, profile_grammar, test_grammar; packs with params at other values:
+/// with_params; what packs can say: attribute_words, relation_words, operator_words; what the
+/// documentation says of a code: page_of. What is wrong with a pack comes back as issues with
+/// codes, all at once.
+#include "interpret/pack/contents.h"         // IWYU pragma: export
+#include "interpret/pack/pack_grammar.h"     // IWYU pragma: export
+#include "interpret/pack/rule_base.h"        // IWYU pragma: export
+#include "interpret/pack/starter.h"          // IWYU pragma: export
+#include "interpret/pack/vocabulary.h"       // IWYU pragma: export
+#include "interpret/params/with_params.h"    // IWYU pragma: export
+#include "interpret/plan/profile.h"          // IWYU pragma: export
+#include "interpret/plan/profile_grammar.h"  // IWYU pragma: export
+#include "interpret/testing/rule_tests.h"    // IWYU pragma: export
+#include "interpret/testing/test_grammar.h"  // IWYU pragma: export
+#include "oriel/reference/code_page.h"       // IWYU pragma: export
 
 namespace oriel {
 

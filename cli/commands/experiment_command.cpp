@@ -235,7 +235,7 @@ void add_experiment_schema(CLI::App& experiment, Action& action) {
   command->footer("Example:\n  oriel experiment schema > oriel-experiment-1.schema.json");
   command->callback([&action] {
     action = [] {
-      print_out(experiment_schema(), true);
+      print_out(plan_grammar().schema(), true);
       return ExitCode::clean;
     };
   });

@@ -1,4 +1,5 @@
 #include "experiments/plan/experiment_plan.h"
+#include "experiments/plan/plan_grammar.h"
 #include "experiments/plan/plan_reader.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/sha256.h"
@@ -23,14 +24,6 @@ constexpr const char* kExperimentSchema = "oriel-experiment/1";
 constexpr const char* kExperimentParts[] = {"sweep",     "ablate",         "compare",
                                             "stability", "learning_curve", "learn"};
 
-const std::vector<std::string>& plan_keys() {
-  static const std::vector<std::string> keys = {
-      "schema",  "name",      "about",          "seed",  "bootstrap",
-      "sets",    "rules",     "options",        "sweep", "ablate",
-      "compare", "stability", "learning_curve", "learn", "count_as_paper"};
-  return keys;
-}
-
 void read_plan_header(YamlSection& top, PlanReader& reader) {
   Findings& findings = reader.findings;
   if (const YamlNode* schema = top.require("schema"))
@@ -47,7 +40,7 @@ void read_plan_header(YamlSection& top, PlanReader& reader) {
 }
 
 void read_whole_plan(const YamlNode& root, PlanReader& reader) {
-  YamlSection top(root, "an experiment", plan_keys(), reader.findings);
+  YamlSection top(root, "an experiment", plan_grammar().keys(""), reader.findings);
   if (!top.is_map()) return;
   read_plan_header(top, reader);
   const YamlNode* counted = top.find("count_as_paper");

@@ -54,9 +54,7 @@ void read_plan_compare(const YamlNode& node, PlanReader& reader);
 void read_plan_stability(const YamlNode& node, PlanReader& reader);
 void read_plan_learning(const YamlNode& node, bool is_curve, PlanReader& reader);
 
-/// The keys of `options:`, which are also those that a compared entry may have.
-const std::vector<std::string>& segmentation_keys();
-/// What a map with such keys, and perhaps others, says of segmentation.
+/// What a map with keys of `options:`, and perhaps others, says of segmentation.
 void read_segmentation(const YamlNode& map, SegmentationPlan& options, PlanReader& reader);
 /// Sets one of them, `key`, from its value; false for another key.
 bool read_segmentation_key(const std::string& key, const YamlNode& value, SegmentationPlan& options,

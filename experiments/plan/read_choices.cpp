@@ -1,3 +1,4 @@
+#include "experiments/plan/plan_grammar.h"
 #include "experiments/plan/plan_reader.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
@@ -50,13 +51,6 @@ std::optional<std::pair<double, double>> QuantityReader::range(const YamlNode& n
   return std::pair(read->low, read->high);
 }
 
-const std::vector<std::string>& segmentation_keys() {
-  static const std::vector<std::string> keys = {
-      "order", "coplanar",   "plane_offset", "weld",   "value_rel",
-      "close", "close_area", "crossings",    "budget", "lod"};
-  return keys;
-}
-
 bool read_segmentation_key(const std::string& key, const YamlNode& value, SegmentationPlan& options,
                            PlanReader& reader) {
   constexpr double kMuch = 1e6;
@@ -91,7 +85,7 @@ void read_segmentation(const YamlNode& map, SegmentationPlan& options, PlanReade
 }
 
 void read_plan_options(const YamlNode& node, SegmentationPlan& options, PlanReader& reader) {
-  const YamlSection section(node, "'options'", segmentation_keys(), reader.findings);
+  const YamlSection section(node, "'options'", plan_grammar().keys("options"), reader.findings);
   if (section.is_map()) read_segmentation(node, options, reader);
 }
 
@@ -156,7 +150,7 @@ void read_plan_rules(const YamlNode& node, PlanReader& reader) {
     rules.base = read_plan_pack(node, reader);
     return;
   }
-  YamlSection section(node, "'rules'", {"pack", "params"}, reader.findings);
+  YamlSection section(node, "'rules'", plan_grammar().keys("rules"), reader.findings);
   const YamlNode* pack = section.is_map() ? section.require("pack") : nullptr;
   if (pack == nullptr) return;
   rules.pack = pack->text;

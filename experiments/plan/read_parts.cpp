@@ -1,3 +1,4 @@
+#include "experiments/plan/plan_grammar.h"
 #include "experiments/plan/plan_reader.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
@@ -38,9 +39,8 @@ void read_compared(const YamlEntry& entry, PlanReader& reader) {
     reader.plan.compare.push_back(std::move(compared));
     return;
   }
-  std::vector<std::string> keys{"pack", "params"};
-  keys.insert(keys.end(), segmentation_keys().begin(), segmentation_keys().end());
-  const YamlSection section(entry.value, fmt::format("'{}'", compared.name), keys, reader.findings);
+  const YamlSection section(entry.value, fmt::format("'{}'", compared.name),
+                            plan_grammar().keys("compared"), reader.findings);
   if (!section.is_map()) return;
   if (const YamlNode* pack = section.find("pack"))
     compared.rules = {pack->text, read_plan_pack(*pack, reader), {}, reader.spot(pack->span)};
@@ -65,10 +65,8 @@ class DisturbanceReader {
 
   StabilityPlan read(const YamlNode& node) {
     plan_.spot = reader_.spot(node.span);
-    const YamlSection section(
-        node, "'stability'",
-        {"noise", "triangulation", "rotation", "missing_faces", "tolerances", "times"},
-        reader_.findings);
+    const YamlSection section(node, "'stability'", plan_grammar().keys("stability"),
+                              reader_.findings);
     if (!section.is_map()) return plan_;
     using Kind = DisturbancePlan::Kind;
     constexpr double kMostNoise_m = 1, kMostShare = 1, kMostTurn_deg = 360;
@@ -119,7 +117,7 @@ class DisturbanceReader {
 
   /// `plane_offset: [5 mm, 2 cm]`: an option and the values that it takes.
   void read_tolerances(const YamlNode& node) {
-    const std::vector<std::string> keys{"coplanar", "plane_offset", "weld", "value_rel"};
+    const auto& keys = plan_grammar().keys("tolerances");
     const YamlSection section(node, "'tolerances'", keys, reader_.findings);
     if (!section.is_map()) return;
     for (const YamlEntry& entry : node.entries)
@@ -196,9 +194,8 @@ void read_plan_stability(const YamlNode& node, PlanReader& reader) {
 void read_plan_learning(const YamlNode& node, bool is_curve, PlanReader& reader) {
   LearnPlan learn;
   learn.spot = reader.spot(node.span);
-  std::vector<std::string> keys{"params", "objective"};
-  if (is_curve) keys.insert(keys.end(), {"buildings", "times"});
-  YamlSection section(node, is_curve ? "'learning_curve'" : "'learn'", keys, reader.findings);
+  const std::string part = is_curve ? "learning_curve" : "learn";
+  YamlSection section(node, "'" + part + "'", plan_grammar().keys(part), reader.findings);
   if (!section.is_map() || !reader.plan.rules.base) return;
   const RuleBase& base = *reader.plan.rules.base;
   const YamlNode* params = section.find("params");

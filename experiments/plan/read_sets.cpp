@@ -1,3 +1,4 @@
+#include "experiments/plan/plan_grammar.h"
 #include "experiments/plan/plan_reader.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
@@ -35,7 +36,7 @@ SplitPlan read_split(const YamlNode& node, PlanReader& reader) {
                                 node.text + "'" + did_you_mean(node.text, {"leave_one_out"}));
     return split;
   }
-  const YamlSection section(node, "a split", {"folds", "held_out"}, reader.findings);
+  const YamlSection section(node, "a split", plan_grammar().keys("split"), reader.findings);
   if (!section.is_map()) return split;
   const YamlNode *folds = section.find("folds"), *held_out = section.find("held_out");
   if ((folds == nullptr) == (held_out == nullptr)) {
@@ -53,7 +54,7 @@ void read_set(const YamlEntry& entry, PlanReader& reader) {
   set.name = entry.key.text;
   set.spot = reader.spot(entry.key.span);
   YamlSection section(entry.value, fmt::format("the set '{}'", set.name),
-                      {"models", "features", "truth", "semantics", "split"}, reader.findings);
+                      plan_grammar().keys("set"), reader.findings);
   if (!section.is_map()) return;
   const YamlNode *models = section.find("models"), *features = section.find("features");
   if (models == nullptr && features == nullptr)

@@ -1,3 +1,4 @@
+#include "experiments/plan/plan_grammar.h"
 #include "experiments/plan/plan_reader.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
@@ -38,8 +39,7 @@ class SweepReader {
 
   SweepPlan read(const YamlNode& node) {
     sweep_.spot = reader_.spot(node.span);
-    YamlSection section(node, "'sweep'", {"params", "values", "design", "samples"},
-                        reader_.findings);
+    YamlSection section(node, "'sweep'", plan_grammar().keys("sweep"), reader_.findings);
     if (!section.is_map()) return sweep_;
     if (const YamlNode* values = section.find("values"))
       values_ = read_count(*values, "'values'", 1, reader_.findings).value_or(kUsualValues);

@@ -12,6 +12,7 @@
 #include "interpret/pack/extend.h"
 #include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
+#include "interpret/pack/pack_grammar.h"
 #include "interpret/pack/pack_page.h"
 #include "interpret/pack/read/read_pack.h"
 #include "interpret/yaml/section.h"
@@ -38,13 +39,6 @@ constexpr const char* kSchema = "oriel/1";
 /// More would make the checks of a pack from a stranger slow.
 constexpr std::size_t kMostClasses = 256;
 constexpr std::size_t kMostNames = 1024;
-
-const std::vector<std::string>& top_keys() {
-  static const std::vector<std::string> keys = {
-      "schema", "pack",   "extends", "params", "hosts", "classes",  "relations",  "macros",
-      "rules",  "decide", "iterate", "groups", "emit",  "surfaces", "generalise", "invariants"};
-  return keys;
-}
 
 void check_schema(YamlSection& top, Findings& findings) {
   const YamlNode* schema = top.require("schema");
@@ -161,7 +155,7 @@ bool is_other_file(const YamlNode& root) {
   constexpr std::size_t kFewKeys = 2;  // all of them may be misspelt
   return root.kind == YamlNode::Kind::map && root.entries.size() > kFewKeys &&
          std::ranges::none_of(root.entries, [](const YamlEntry& entry) {
-           return contains(top_keys(), entry.key.text);
+           return contains(pack_grammar().keys(""), entry.key.text);
          });
 }
 
@@ -174,7 +168,7 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
     return;
   }
   check_traps(root, findings);
-  YamlSection top(root, "a pack", top_keys(), findings);
+  YamlSection top(root, "a pack", pack_grammar().keys(""), findings);
   if (!top.is_map()) return;
   check_schema(top, findings);
   if (!is_small_enough(top, findings)) return;

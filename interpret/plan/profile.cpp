@@ -3,6 +3,7 @@
 #include "interpret/pack/embedded.h"
 #include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
+#include "interpret/plan/profile_grammar.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/sha256.h"
 #include "kernel/base/text/suggest.h"
@@ -30,13 +31,13 @@ class ProfileReader {
   ProfileReader(Findings& findings, Profile& profile) : findings_(findings), profile_(profile) {}
 
   void read(const YamlNode& root, const std::string& level) {
-    YamlSection top(root, "a profile", {"schema", "profile", "levels"}, findings_);
+    YamlSection top(root, "a profile", rules::profile_grammar().keys(""), findings_);
     if (!top.is_map()) return;
     if (const YamlNode* schema = top.require("schema");
         schema != nullptr && schema->text != kProfileSchema)
       findings_.error(Code::R212, schema->span, fmt::format("the schema is {}", kProfileSchema));
     if (const YamlNode* header = top.require("profile")) {
-      YamlSection section(*header, "'profile'", {"name", "version"}, findings_);
+      YamlSection section(*header, "'profile'", rules::profile_grammar().keys("header"), findings_);
       section.require("version");
       if (const YamlNode* name = section.require("name")) profile_.name = name->text;
     }
@@ -65,11 +66,7 @@ class ProfileReader {
 
  private:
   void read_level(const YamlNode& node) {
-    YamlSection section(node, "a level",
-                        {"form", "least-piece-m2", "footprint-edge-m", "omit", "keep", "imprints",
-                         "on-ground", "sizes-m", "area-m2", "map-mm", "verdicts", "parts",
-                         "invariants", "edge-min-m", "edge-owner-b-m", "stl-solids", "buildings"},
-                        findings_);
+    YamlSection section(node, "a level", rules::profile_grammar().keys("level"), findings_);
     if (!section.is_map()) return;
     if (const YamlNode* form = section.require("form")) read_form(*form);
     if (const YamlNode* piece = section.find("least-piece-m2"))
@@ -93,9 +90,7 @@ class ProfileReader {
   }
 
   void read_groups(const YamlNode& node) {
-    YamlSection section(node, "'buildings'",
-                        {"aggregate", "gap-mm", "like-height-m", "from-scale", "typify"},
-                        findings_);
+    YamlSection section(node, "'buildings'", rules::profile_grammar().keys("buildings"), findings_);
     if (!section.is_map()) return;
     if (const YamlNode* aggregate = section.require("aggregate");
         aggregate != nullptr && aggregate->text != "touching")
@@ -112,7 +107,8 @@ class ProfileReader {
   }
 
   void read_rows(const YamlNode& node, Profile::Groups& groups) {
-    YamlSection section(node, "'typify' of 'buildings'", {"ratio", "from-scale"}, findings_);
+    YamlSection section(node, "'typify' of 'buildings'", rules::profile_grammar().keys("typify"),
+                        findings_);
     if (!section.is_map()) return;
     if (const YamlNode* ratio = section.require("ratio")) {
       groups.row_ratio = positive(*ratio, "'ratio'").value_or(0);
@@ -179,7 +175,7 @@ class ProfileReader {
     }
     if (map != nullptr) profile_.map_mm = positive(*map, "'map-mm'");
     if (sizes == nullptr) return;
-    YamlSection of_sizes(*sizes, "'sizes-m'", {"a", "b", "c"}, findings_);
+    YamlSection of_sizes(*sizes, "'sizes-m'", rules::profile_grammar().keys("sizes"), findings_);
     const YamlNode* area = section.require("area-m2");
     std::array<std::optional<double>, 4> numbers;
     std::size_t i = 0;
@@ -201,9 +197,7 @@ class ProfileReader {
   }
 
   void read_verdicts(const YamlNode& node) {
-    YamlSection section(node, "'verdicts'",
-                        {"point", "line", "small", "sheet", "lamina", "cap", "fin", "enclosed"},
-                        findings_);
+    YamlSection section(node, "'verdicts'", rules::profile_grammar().keys("verdicts"), findings_);
     if (!section.is_map()) return;
     for (const Significance verdict :
          {Significance::point, Significance::line, Significance::small})
@@ -227,7 +221,7 @@ class ProfileReader {
   }
 
   void read_parts(const YamlNode& node) {
-    YamlSection section(node, "'parts'", {"height-m", "area-m2"}, findings_);
+    YamlSection section(node, "'parts'", rules::profile_grammar().keys("parts"), findings_);
     const YamlNode *height = section.require("height-m"), *area = section.require("area-m2");
     if (height == nullptr || area == nullptr) return;
     const auto height_m = positive(*height, "'height-m'"), area_m2 = positive(*area, "'area-m2'");

@@ -1,6 +1,7 @@
 #include "interpret/testing/fixture.h"
 
 #include "interpret/language/quantity.h"
+#include "interpret/testing/test_grammar.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
 
@@ -116,7 +117,7 @@ double read_step(const YamlNode* node, Loader& loader) {
 
 /// A grid of copies: w.1, w.2 … along the rows, from the lowest.
 void repeat(const YamlNode& node, const FixtureFeature& feature, Fixture& fixture, Loader& loader) {
-  YamlSection section(node, "'repeat'", {"columns", "rows", "dx", "dz"}, loader.findings);
+  YamlSection section(node, "'repeat'", test_grammar().keys("repeat"), loader.findings);
   const int columns = read_times(section.find("columns"), loader);
   const int rows = read_times(section.find("rows"), loader);
   const double dx = read_step(section.find("dx"), loader);
@@ -268,7 +269,7 @@ bool is_match(std::string_view pattern, std::string_view name) {
 
 Fixture read_fixture(const YamlNode& node, Loader& loader) {
   Fixture fixture;
-  YamlSection section(node, "a fixture", {"defaults", "features"}, loader.findings);
+  YamlSection section(node, "a fixture", test_grammar().keys("fixture"), loader.findings);
   const YamlNode* features = section.require("features");
   if (features == nullptr || !expect_map(*features, "'features'", loader.findings)) return fixture;
   FixtureFeature defaults;

@@ -1,5 +1,6 @@
 #include "interpret/testing/test_file.h"
 
+#include "interpret/testing/test_grammar.h"
 #include "interpret/yaml/section.h"
 #include "interpret/yaml/yaml_tree.h"
 #include "kernel/base/text/suggest.h"
@@ -43,8 +44,7 @@ class TestReader {
   }
 
   void read_test(const YamlNode& node) {
-    YamlSection section(node, "a test", {"name", "given", "expect", "because", "property"},
-                        findings());
+    YamlSection section(node, "a test", test_grammar().keys("test"), findings());
     if (!section.is_map()) return;
     RuleTest test;
     test.place = findings().source().place(node.span.begin);
@@ -174,7 +174,7 @@ class TestReader {
   }
 
   void read_property(const YamlNode& node, RuleTest& test) {
-    YamlSection section(node, "a property", {"perturb", "times"}, findings());
+    YamlSection section(node, "a property", test_grammar().keys("property"), findings());
     TablePerturbation perturbation;
     const YamlNode* perturb = section.require("perturb");
     if (perturb != nullptr && expect_map(*perturb, "'perturb'", findings()))
@@ -278,7 +278,7 @@ ReadTests read_tests_text(std::string text, const std::string& path) {
     findings.error(Code::R200, {bad, bad}, "this is not UTF-8 text");
   } else if (const auto root = parse_yaml({0, scratch.source.text().size()}, findings)) {
     check_traps(*root, findings);
-    YamlSection top(*root, "a file of tests", {"tests_for", "fixtures", "tests"}, findings);
+    YamlSection top(*root, "a file of tests", test_grammar().keys(""), findings);
     const YamlNode* pack = top.is_map() ? top.require("tests_for") : nullptr;
     if (pack != nullptr) file.base = load_tested(*pack, path, findings, of_pack);
     if (file.base) {

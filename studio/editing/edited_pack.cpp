@@ -317,8 +317,7 @@ std::optional<RuleBase> EditedPack::rules() const {
 }
 
 std::vector<Completion> EditedPack::complete(std::size_t offset) const {
-  const bool is_known = kind() == Kind::pack || kind() == Kind::tests;
-  if (!is_known) return {};
+  if (kind() == Kind::other) return {};
   return rules::completions_at(state_->read_layers(), std::min(offset, text().size()));
 }
 
@@ -328,8 +327,7 @@ std::optional<HoverText> EditedPack::hover(std::size_t offset) const {
     std::string said = rules::hover_text(layers, *word);
     if (!said.empty()) return HoverText{std::move(said), {word->span.begin, word->span.end}};
   }
-  if (kind() != Kind::pack) return std::nullopt;
-  auto key = rules::key_text(layers, offset);
+  auto key = kind() == Kind::other ? std::nullopt : rules::key_text(layers, offset);
   if (!key) return std::nullopt;
   return HoverText{std::move(key->text), {key->span.begin, key->span.end}};
 }

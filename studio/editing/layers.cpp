@@ -1,6 +1,9 @@
 #include "studio/editing/layers.h"
 
 #include "interpret/language/findings.h"
+#include "interpret/pack/pack_grammar.h"
+#include "interpret/plan/profile_grammar.h"
+#include "interpret/testing/test_grammar.h"
 #include "studio/editing/cursor/yaml_path.h"
 
 #include <algorithm>
@@ -138,6 +141,9 @@ const DeclaredName* PackLayers::find(WordSort sort, std::string_view name) const
   return found == names_.end() ? nullptr : &*found;
 }
 
-bool PackLayers::is_tests() const { return find_value(top().tree, "tests_for") != nullptr; }
+const Grammar& PackLayers::grammar() const {
+  if (find_value(top().tree, "tests_for") != nullptr) return test_grammar();
+  return find_value(top().tree, "profile") != nullptr ? profile_grammar() : pack_grammar();
+}
 
 }  // namespace oriel::rules

@@ -2,6 +2,7 @@
 
 #include "interpret/language/source.h"
 #include "interpret/pack/extend.h"
+#include "interpret/yaml/grammar.h"
 #include "interpret/yaml/yaml_tree.h"
 #include "studio/editing/cursor/expression_words.h"
 
@@ -43,8 +44,8 @@ class PackLayers {
   [[nodiscard]] const std::vector<DeclaredName>& names() const { return names_; }
   /// The nearest declaration, or null.
   [[nodiscard]] const DeclaredName* find(WordSort sort, std::string_view name) const;
-  /// True if it is a file of tests.
-  [[nodiscard]] bool is_tests() const;
+  /// The grammar of the text: of packs, of tests, or of profiles.
+  [[nodiscard]] const Grammar& grammar() const;
 
  private:
   std::deque<PackLayer> layers_;

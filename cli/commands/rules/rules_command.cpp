@@ -285,10 +285,16 @@ void add_show(CLI::App& rules, Action& action) {
 void add_schema(CLI::App& rules, Action& action) {
   CLI::App* command = rules.add_subcommand(
       "schema", "Print the JSON Schema of rule packs, for completion in editors");
+  const auto of = std::make_shared<std::string>("packs");
+  command->add_option("of", *of, "What it is of: packs, profiles or tests (default: packs)")
+      ->check(CLI::IsMember({"packs", "profiles", "tests"}));
   command->footer("Example:\n  oriel rules schema > oriel-1.schema.json");
-  command->callback([&action] {
-    action = [] {
-      print_out(pack_schema(), true);
+  command->callback([of, &action] {
+    action = [of] {
+      const rules::Grammar& grammar = *of == "packs"      ? rules::pack_grammar()
+                                      : *of == "profiles" ? rules::profile_grammar()
+                                                          : rules::test_grammar();
+      print_out(grammar.schema(), true);
       return ExitCode::clean;
     };
   });

@@ -1,5 +1,6 @@
 #include "interpret/language/synonyms.h"
 #include "interpret/pack/loader.h"
+#include "interpret/pack/pack_grammar.h"
 #include "interpret/plan/operators.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
@@ -140,7 +141,7 @@ Belonging read_belonging(const YamlNode& node, Loader& loader) {
 
 /// `{by: decor}`, or `{by: decor, of: sill, as: grows}`.
 void read_with(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
-  YamlSection section(node, "'with'", {"by", "of", "as"}, loader.findings);
+  YamlSection section(node, "'with'", pack_grammar().keys("with"), loader.findings);
   if (!section.is_map()) return;
   if (const YamlNode* by = section.require("by")) {
     entry.with = read_relation(*by, "'by'", loader);
@@ -173,8 +174,8 @@ void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::s
 }
 
 void read_entry(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
-  YamlSection section(node, name_with_id(node, "entry", "an entry"),
-                      {"id", "scale", "for", "when", "do", "with"}, loader.findings);
+  YamlSection section(node, name_with_id(node, "entry", "an entry"), pack_grammar().keys("entry"),
+                      loader.findings);
   if (!section.is_map()) return;
   GeneraliseEntry entry;
   entry.span = node.span;

@@ -3,6 +3,7 @@
 #include "interpret/language/parser.h"
 #include "interpret/language/quantity.h"
 #include "interpret/pack/loader.h"
+#include "interpret/pack/pack_grammar.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
 
@@ -56,8 +57,8 @@ std::optional<FixedRange> read_range_of(Param& param, const YamlNode& value, con
 
 std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
   if (!expect_name(entry.key, "a param", loader.findings)) return std::nullopt;
-  YamlSection section(entry.value, "the param '" + entry.key.text + "'", {"value", "range", "why"},
-                      loader.findings);
+  YamlSection section(entry.value, "the param '" + entry.key.text + "'",
+                      pack_grammar().keys("param"), loader.findings);
   const YamlNode* value_node = section.require("value");
   if (value_node == nullptr) return std::nullopt;
   Param param;
@@ -109,7 +110,7 @@ std::optional<LimitRange> read_counts(const YamlNode& node, Loader& loader) {
 
 /// What is wrong with a key was said by the section.
 void read_typical(const YamlNode& node, Class& c, Loader& loader) {
-  const std::vector<std::string> keys = {"per storey", "per facade", "per building"};
+  const auto& keys = pack_grammar().keys("typical");
   const YamlSection section(node, "'typical'", keys, loader.findings);
   for (const YamlEntry& entry : node.entries) {
     if (!contains(keys, entry.key.text)) continue;
@@ -128,7 +129,7 @@ void read_typical(const YamlNode& node, Class& c, Loader& loader) {
 
 void read_class_body(const YamlNode& node, Class& c, Loader& loader) {
   if (node.kind == YamlNode::Kind::null) return;
-  YamlSection section(node, "the class '" + c.name + "'", {"is", "abstract", "typical"},
+  YamlSection section(node, "the class '" + c.name + "'", pack_grammar().keys("class"),
                       loader.findings);
   if (const YamlNode* parent = section.find("is"))
     c.parent = read_class(*parent, "the class after 'is'", loader);
@@ -202,7 +203,7 @@ void read_relation(const YamlEntry& entry, const YamlNode& all, Loader& loader) 
   RelationDefinition relation;
   relation.name = name;
   relation.span = entry.key.span;
-  YamlSection section(entry.value, "the relation '" + name + "'", {"within", "where"},
+  YamlSection section(entry.value, "the relation '" + name + "'", pack_grammar().keys("relation"),
                       loader.findings);
   const YamlNode* within = section.require("within");
   if (within != nullptr && !leads_below(*within, all, entry, loader))
@@ -231,7 +232,7 @@ void read_group(const YamlEntry& entry, Loader& loader) {
   GroupKind kind;
   kind.name = entry.key.text;
   kind.span = entry.key.span;
-  YamlSection section(entry.value, "the group '" + kind.name + "'", {"of", "by", "at_least"},
+  YamlSection section(entry.value, "the group '" + kind.name + "'", pack_grammar().keys("group"),
                       loader.findings);
   if (const YamlNode* of = section.require("of"))
     kind.of = read_class(*of, "the class after 'of'", loader);
@@ -267,7 +268,7 @@ bool expect_name(const YamlNode& node, const std::string& what, Findings& findin
 }
 
 void read_header(const YamlNode& node, Loader& loader) {
-  YamlSection section(node, "'pack'", {"name", "version"}, loader.findings);
+  YamlSection section(node, "'pack'", pack_grammar().keys("header"), loader.findings);
   if (const YamlNode* name = section.require("name"))
     if (read_text(*name, "a pack's name", loader.findings) &&
         expect_name(*name, "a pack", loader.findings))

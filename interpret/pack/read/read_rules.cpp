@@ -1,6 +1,7 @@
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/parser.h"
 #include "interpret/pack/loader.h"
+#include "interpret/pack/pack_grammar.h"
 #include "interpret/yaml/section.h"
 
 #include <set>
@@ -57,7 +58,7 @@ void check_ramps(const ScoreTerm& term, const YamlNode& node, Loader& loader) {
 
 /// What stands after `expression:` in a score.
 void read_judgement(const YamlNode& node, ScoreTerm& term, Loader& loader) {
-  YamlSection section(node, "a score term", {"rise", "fall", "weight"}, loader.findings);
+  YamlSection section(node, "a score term", pack_grammar().keys("judgement"), loader.findings);
   if (!section.is_map()) return;
   term.weight = read_weight(section.find("weight"), loader);
   if (term.value == kNoExpr) return;
@@ -117,8 +118,8 @@ void read_rule_id(const YamlNode& node, Rule& rule, std::set<std::string>& ids, 
 }
 
 void read_rule(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
-  YamlSection section(node, name_with_id(node, "rule", "a rule"),
-                      {"id", "label", "priority", "require", "unless", "score"}, loader.findings);
+  YamlSection section(node, name_with_id(node, "rule", "a rule"), pack_grammar().keys("rule"),
+                      loader.findings);
   if (!section.is_map()) return;
   Rule rule;
   rule.span = node.span;

@@ -1,5 +1,6 @@
 #include "interpret/evaluate/pack_values.h"
 #include "interpret/pack/loader.h"
+#include "interpret/pack/pack_grammar.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
 
@@ -48,8 +49,7 @@ std::optional<std::string> read_code(const YamlNode& node, Findings& findings) {
 }
 
 std::optional<Emission> read_emission(const YamlNode& node, Loader& loader) {
-  YamlSection section(node, "an emitted object", {"type", "class", "function", "top"},
-                      loader.findings);
+  YamlSection section(node, "an emitted object", pack_grammar().keys("emission"), loader.findings);
   const YamlNode* type_node = section.require("type");
   if (type_node == nullptr) return std::nullopt;
   Emission emission;
@@ -124,7 +124,7 @@ void read_evidence(const YamlSection& section, Loader& loader) {
 }  // namespace
 
 void read_hosts(const YamlNode& node, Loader& loader) {
-  YamlSection section(node, "'hosts'", {"wall", "roof", "ground", "ground_reach"}, loader.findings);
+  YamlSection section(node, "'hosts'", pack_grammar().keys("hosts"), loader.findings);
   Hosts& hosts = loader.pack.hosts;
   read_facet_range(section.find("wall"), hosts.wall, loader);
   read_facet_range(section.find("roof"), hosts.roof, loader);
@@ -138,9 +138,7 @@ void read_hosts(const YamlNode& node, Loader& loader) {
 }
 
 void read_decide(const YamlNode& node, Loader& loader) {
-  YamlSection section(node, "'decide'",
-                      {"min_score", "ambiguous_below", "evidence", "company", "otherwise"},
-                      loader.findings);
+  YamlSection section(node, "'decide'", pack_grammar().keys("decide"), loader.findings);
   Decide& decide = loader.pack.decide;
   decide.min_score = read_share(section.find("min_score"), "'min_score'", loader);
   decide.ambiguous_below = read_share(section.find("ambiguous_below"), "'ambiguous_below'", loader);
@@ -150,7 +148,7 @@ void read_decide(const YamlNode& node, Loader& loader) {
 }
 
 void read_iterate(const YamlNode& node, Loader& loader) {
-  YamlSection section(node, "'iterate'", {"rounds"}, loader.findings);
+  YamlSection section(node, "'iterate'", pack_grammar().keys("iterate"), loader.findings);
   const YamlNode* rounds = section.require("rounds");
   if (rounds == nullptr) return;
   const auto count = read_integer(*rounds, "'rounds'", loader.findings);
@@ -179,9 +177,7 @@ Limits read_limits(const YamlNode& node, Findings& findings) {
       {"top-m", &limits.top_m},
       {"ridge-m", &limits.ridge_m},
       {"eaves-m", &limits.eaves_m}};
-  std::vector<std::string> keys;
-  for (const auto& [key, into] : all) keys.push_back(key);
-  const YamlSection section(node, "'invariants'", keys, findings);
+  const YamlSection section(node, "'invariants'", pack_grammar().keys("invariants"), findings);
   for (const auto& [key, into] : all) {
     const YamlNode* value = section.is_map() ? section.find(key) : nullptr;
     if (value == nullptr) continue;

@@ -1,6 +1,7 @@
 #include "interpret/compile/reads.h"
 #include "interpret/language/parser.h"
 #include "interpret/pack/loader.h"
+#include "interpret/pack/pack_grammar.h"
 #include "interpret/surfaces/surface_rules.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/text/suggest.h"
@@ -54,7 +55,7 @@ class SurfaceReader {
 
 void SurfaceReader::read(const YamlNode& entry) {
   YamlSection section(entry, name_with_id(entry, "entry", "an entry of 'surfaces'"),
-                      {"id", "type", "when"}, findings_);
+                      pack_grammar().keys("surface"), findings_);
   if (!section.is_map()) return;
   SurfaceRule rule;
   rule.span = entry.span;

@@ -39,33 +39,6 @@ void add_keys(const WritingSpot& spot, std::vector<SchemaWord> keys,
   }
 }
 
-/// The keys of files of tests, for which there is no schema.
-std::vector<SchemaWord> test_keys(const YamlPath& map) {
-  const auto has_form = [&](std::initializer_list<std::string_view> form) {
-    return std::ranges::equal(map, form, [](const YamlStep& step, std::string_view part) {
-      return part == "*" || (part == "#" ? !step.is_key() : step.key == part);
-    });
-  };
-  if (map.empty())
-    return {
-        {"tests_for", "the pack that is tested: a file next to this one, or a built-in pack", true},
-        {"fixtures", "features with values, by the name of a facade or a house"},
-        {"tests", "what is expected of which fixture", true}};
-  if (has_form({"fixtures", "*"}))
-    return {{"defaults", "values that all features have"}, {"features", "the features by name"}};
-  if (has_form({"tests", "#"}))
-    return {{"name", "a sentence", true},
-            {"given", "a fixture, or building: FILE", true},
-            {"expect", "the label of each feature"},
-            {"because", "which rules hold or fail"},
-            {"property", "values that are perturbed, and how often"}};
-  if (has_form({"tests", "#", "property"}))
-    return {{"perturb", "how much each attribute is moved", true}, {"times", "how often"}};
-  if (has_form({"tests", "#", "expect"}))
-    return {{"counts", "how many of each class"}, {"groups", "how many groups of each kind"}};
-  return {};
-}
-
 void add_attributes(TextSpan replaced, std::vector<Completion>& completions) {
   for (const AttributeInfo& attribute : feature_schema()) {
     WordText text = text_of_attribute(attribute.name);
@@ -144,7 +117,7 @@ void complete_key(const PackLayers& layers, const WritingSpot& spot,
       if (!completions[i].insert.ends_with(": ")) completions[i].insert += ": ";
     return;
   }
-  add_keys(spot, layers.is_tests() ? test_keys(map) : schema_keys(map), completions);
+  add_keys(spot, schema_keys(layers.grammar(), map), completions);
 }
 
 void complete_value(const PackLayers& layers, const WritingSpot& spot,
@@ -153,13 +126,12 @@ void complete_value(const PackLayers& layers, const WritingSpot& spot,
   add_names_at(layers, place, replaced_by(spot), completions);
   const bool is_operator =
       spot.path.size() == 3 && spot.path[0].key == "generalise" && spot.path[2].key == "do";
-  if (!layers.is_tests())
-    for (const SchemaWord& value : schema_values(spot.path)) {
-      const WordText text = is_operator ? text_of_operator(value.name) : WordText{"value"};
-      completions.push_back({value.name, text.sort, text.detail,
-                             text.meaning.empty() ? value.meaning : text.meaning, value.name,
-                             replaced_by(spot)});
-    }
+  for (const SchemaWord& value : schema_values(layers.grammar(), spot.path)) {
+    const WordText text = is_operator ? text_of_operator(value.name) : WordText{"value"};
+    completions.push_back({value.name, text.sort, text.detail,
+                           text.meaning.empty() ? value.meaning : text.meaning, value.name,
+                           replaced_by(spot)});
+  }
   if (is_expression(place) && completions.empty())
     complete_expression(layers, place, spot.written, spot.begin + spot.written.size(), completions);
 }

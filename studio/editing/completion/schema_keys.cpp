@@ -1,8 +1,8 @@
 #include "studio/editing/completion/schema_keys.h"
 
-#include "interpret/pack/pack_schema.h"
-
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -13,48 +13,54 @@ namespace {
 
 using json = nlohmann::ordered_json;  // keys stay in their order
 
-const json& schema() {
-  static const json parsed = json::parse(pack_schema());
-  return parsed;
+/// The grammar's schema, read once.
+const json& schema_of(const Grammar& grammar) {
+  static std::mutex mutex;
+  static std::map<const Grammar*, json> read;
+  const std::lock_guard lock(mutex);
+  const auto [entry, is_new] = read.try_emplace(&grammar);
+  if (is_new) entry->second = json::parse(grammar.schema());
+  return entry->second;
 }
 
 /// The node and all that it stands for by `$ref` and `anyOf`.
-void add_alternatives(const json& node, std::vector<const json*>& all) {
+void add_alternatives(const json& schema, const json& node, std::vector<const json*>& all) {
   all.push_back(&node);
   if (const auto ref = node.find("$ref"); ref != node.end())
-    add_alternatives(schema().at(json::json_pointer(ref->get<std::string>().substr(1))), all);
+    add_alternatives(schema, schema.at(json::json_pointer(ref->get<std::string>().substr(1))), all);
   if (const auto any = node.find("anyOf"); any != node.end())
-    for (const json& alternative : *any) add_alternatives(alternative, all);
+    for (const json& alternative : *any) add_alternatives(schema, alternative, all);
 }
 
-void add_child(const json& node, const YamlStep& step, std::vector<const json*>& children) {
+void add_child(const json& schema, const json& node, const YamlStep& step,
+               std::vector<const json*>& children) {
   const auto add_member = [&](const char* name) {
     const auto member = node.find(name);
-    if (member != node.end() && member->is_object()) add_alternatives(*member, children);
+    if (member != node.end() && member->is_object()) add_alternatives(schema, *member, children);
   };
   if (!step.is_key()) return add_member("items");
   const auto properties = node.find("properties");
   const bool is_named = properties != node.end() && properties->contains(step.key);
   if (is_named)
-    add_alternatives(properties->at(step.key), children);
+    add_alternatives(schema, properties->at(step.key), children);
   else
     add_member("additionalProperties");
 }
 
-std::vector<const json*> nodes_at(const YamlPath& path) {
+std::vector<const json*> nodes_at(const json& schema, const YamlPath& path) {
   std::vector<const json*> nodes;
-  add_alternatives(schema(), nodes);
+  add_alternatives(schema, schema, nodes);
   for (const YamlStep& step : path) {
     std::vector<const json*> children;
-    for (const json* node : nodes) add_child(*node, step, children);
+    for (const json* node : nodes) add_child(schema, *node, step, children);
     nodes = std::move(children);
   }
   return nodes;
 }
 
-std::string meaning_of(const json& node) {
+std::string meaning_of(const json& schema, const json& node) {
   std::vector<const json*> all;
-  add_alternatives(node, all);
+  add_alternatives(schema, node, all);
   for (const json* alternative : all)
     if (const auto text = alternative->find("description"); text != alternative->end())
       return text->get<std::string>();
@@ -73,25 +79,27 @@ bool is_listed(const json& node, const char* list, const std::string& name) {
 
 }  // namespace
 
-std::vector<SchemaWord> schema_keys(const YamlPath& path) {
+std::vector<SchemaWord> schema_keys(const Grammar& grammar, const YamlPath& path) {
+  const json& schema = schema_of(grammar);
   std::vector<SchemaWord> keys;
   bool is_first = true;  // of several forms the first is the usual one
-  for (const json* node : nodes_at(path)) {
+  for (const json* node : nodes_at(schema, path)) {
     const auto properties = node->find("properties");
     if (properties == node->end()) continue;
     for (const auto& [name, property] : properties->items())
-      add_word(keys, {name, meaning_of(property), is_first && is_listed(*node, "required", name)});
+      add_word(keys, {name, meaning_of(schema, property),
+                      is_first && is_listed(*node, "required", name)});
     is_first = false;
   }
   return keys;
 }
 
-std::vector<SchemaWord> schema_values(const YamlPath& path) {
+std::vector<SchemaWord> schema_values(const Grammar& grammar, const YamlPath& path) {
   std::vector<SchemaWord> values;
   const auto add = [&](const json& value) {
     add_word(values, {value.is_string() ? value.get<std::string>() : value.dump(), ""});
   };
-  for (const json* node : nodes_at(path)) {
+  for (const json* node : nodes_at(schema_of(grammar), path)) {
     if (const auto list = node->find("enum"); list != node->end())
       std::ranges::for_each(*list, add);
     if (const auto one = node->find("const"); one != node->end()) add(*one);
@@ -103,8 +111,8 @@ std::vector<SchemaWord> schema_values(const YamlPath& path) {
   return values;
 }
 
-std::string schema_meaning(const YamlPath& path) {
-  for (const json* node : nodes_at(path))
+std::string schema_meaning(const Grammar& grammar, const YamlPath& path) {
+  for (const json* node : nodes_at(schema_of(grammar), path))
     if (const auto text = node->find("description"); text != node->end())
       return text->get<std::string>();
   return "";

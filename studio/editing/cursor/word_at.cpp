@@ -106,7 +106,6 @@ std::string hover_text(const PackLayers& layers, const PackWord& word) {
 }
 
 std::optional<KeyText> key_text(const PackLayers& layers, std::size_t offset) {
-  if (layers.is_tests()) return std::nullopt;
   std::optional<KeyText> found;
   visit_yaml(layers.top().tree, [&](const YamlNode& node, const YamlPath& path, bool is_key) {
     const bool is_here = node.kind == YamlNode::Kind::scalar && is_around(node.span, offset) &&
@@ -118,7 +117,7 @@ std::optional<KeyText> key_text(const PackLayers& layers, std::size_t offset) {
       const WordText text = text_of_operator(node.text);
       if (!text.sort.empty()) found = KeyText{node.span, text.hover(node.text)};
     } else if (is_key && place_of(path, true) == YamlPlace::other) {
-      const std::string meaning = schema_meaning(path);
+      const std::string meaning = schema_meaning(layers.grammar(), path);
       if (!meaning.empty()) found = KeyText{node.span, node.text + ": " + meaning};
     }
   });

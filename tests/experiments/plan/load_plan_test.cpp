@@ -1,5 +1,5 @@
 #include "experiments/plan/experiment_plan.h"
-#include "experiments/plan/plan_schema.h"
+#include "experiments/plan/plan_grammar.h"
 
 #include <filesystem>
 #include <fstream>
@@ -50,7 +50,7 @@ std::set<std::string> keys_of_loader(const std::string& text) {
 }
 
 std::set<std::string> keys_of_schema(const std::string& path) {
-  static const auto schema = nlohmann::json::parse(experiment_schema());
+  static const auto schema = nlohmann::json::parse(plan_grammar().schema());
   std::set<std::string> keys;
   for (const auto& property : schema.at(nlohmann::json::json_pointer(path)).items())
     keys.insert(property.key());

@@ -130,4 +130,22 @@ TEST_SUITE("studio/editing") {
       }
     }
   }
+
+  TEST_CASE("keys of profiles and tests are completed and say what they mean") {
+    const std::string profile = "schema: oriel-profile/1\nprofile: {name: p, version: 1.0.0}\n";
+    const auto keys = completed(profile + "levels:\n  \"2\":\n    form: as-is\n    |\n");
+    CHECK(has(keys, "least-piece-m2"));
+    CHECK_FALSE(has(keys, "form"));
+    CHECK(completed(profile + "levels:\n  \"2\":\n    form: |\n") ==
+          std::vector<std::string>{"as-is", "block", "blocks"});
+    CHECK(has(completed("tests_for: residential\ntests:\n  - name: n\n    |\n"), "because"));
+    for (const std::string& marked :
+         {profile + "levels:\n  \"2\":\n    fo|rm: block\n",
+          std::string("tests_for: residential\ntests:\n  - na|me: n\n")}) {
+      const MarkedText at(marked);
+      const auto hover = at.pack().hover(at.offset);
+      REQUIRE(hover);
+      CHECK(hover->text.size() > 8);
+    }
+  }
 }

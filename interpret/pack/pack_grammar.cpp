@@ -1,20 +1,21 @@
-#include "interpret/pack/pack_schema.h"
+#include "interpret/pack/pack_grammar.h"
 
 #include "interpret/plan/operators.h"
 
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace oriel {
+namespace oriel::rules {
 
 namespace {
 
 /// Where the operators stand in the schema.
 constexpr std::string_view kOperators = "%OPERATORS%";
-/// All but the operators.
-constexpr const char* kSchema = R"json({
+/// All but these.
+constexpr const char* kPackSchema = R"json({
   "$schema": "http://json-schema.org/draft-07/schema#",
   "$id": "urn:oriel:schema:oriel-1",
   "title": "oriel/1 rule pack",
@@ -264,20 +265,7 @@ constexpr const char* kSchema = R"json({
         }
       ]
     },
-    "invariants": {
-      "type": "object",
-      "additionalProperties": false,
-      "description": "limits of change that no operation may exceed",
-      "properties": {
-        "footprint-pct": {"type": "number", "description": "area of the footprint, in per cent"},
-        "volume-pct": {"type": "number", "description": "volume, in per cent"},
-        "overhang-pct": {"type": "number", "description": "overhanging area, in per cent of the footprint"},
-        "party-walls-pct": {"type": "number", "description": "area of walls shared with neighbours, in per cent"},
-        "top-m": {"type": "number", "description": "height of the highest point, in metres"},
-        "ridge-m": {"type": "number", "description": "height of the ridge, in metres"},
-        "eaves-m": {"type": "number", "description": "height of the eaves, in metres"}
-      }
-    },
+    "invariants": %INVARIANTS%,
     "decide": {
       "type": "object",
       "additionalProperties": false,
@@ -418,6 +406,22 @@ constexpr const char* kSchema = R"json({
 }
 )json";
 
+constexpr std::string_view kInvariants = "%INVARIANTS%";
+constexpr const char* kInvariantsSchema = R"json({
+      "type": "object",
+      "additionalProperties": false,
+      "description": "limits of change that no operation may exceed",
+      "properties": {
+        "footprint-pct": {"type": "number", "description": "area of the footprint, in per cent"},
+        "volume-pct": {"type": "number", "description": "volume, in per cent"},
+        "overhang-pct": {"type": "number", "description": "overhanging area, in per cent of the footprint"},
+        "party-walls-pct": {"type": "number", "description": "area of walls shared with neighbours, in per cent"},
+        "top-m": {"type": "number", "description": "height of the highest point, in metres"},
+        "ridge-m": {"type": "number", "description": "height of the ridge, in metres"},
+        "eaves-m": {"type": "number", "description": "height of the eaves, in metres"}
+      }
+    })json";
+
 std::string argument_schema(const OperatorArgument& argument) {
   const std::string type =
       argument.words.empty()
@@ -449,9 +453,17 @@ std::string operations_schema() {
 
 }  // namespace
 
-std::string pack_schema() {
-  std::string schema = kSchema;
-  return schema.replace(schema.find(kOperators), kOperators.size(), operations_schema());
+std::string with_invariants(std::string schema) {
+  return schema.replace(schema.find(kInvariants), kInvariants.size(), kInvariantsSchema);
 }
 
-}  // namespace oriel
+const Grammar& pack_grammar() {
+  static const Grammar grammar([] {
+    std::string schema = kPackSchema;
+    schema.replace(schema.find(kOperators), kOperators.size(), operations_schema());
+    return with_invariants(std::move(schema));
+  }());
+  return grammar;
+}
+
+}  // namespace oriel::rules

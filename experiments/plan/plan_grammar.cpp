@@ -1,4 +1,4 @@
-#include "experiments/plan/plan_schema.h"
+#include "experiments/plan/plan_grammar.h"
 
 namespace oriel {
 
@@ -226,6 +226,9 @@ constexpr const char* kExperimentJsonSchema = R"json({
 
 }  // namespace
 
-std::string experiment_schema() { return kExperimentJsonSchema; }
+const rules::Grammar& plan_grammar() {
+  static const rules::Grammar grammar(kExperimentJsonSchema);
+  return grammar;
+}
 
 }  // namespace oriel

@@ -1,10 +1,14 @@
-#include "interpret/pack/pack_schema.h"
+#include "interpret/pack/pack_grammar.h"
 
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/operators.h"
+#include "interpret/plan/profile_grammar.h"
+#include "interpret/testing/test_grammar.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -22,7 +26,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 const json& schema() {
-  static const json parsed = json::parse(pack_schema());
+  static const json parsed = json::parse(rules::pack_grammar().schema());
   return parsed;
 }
 
@@ -53,6 +57,8 @@ bool is_of_type(const json& value, const std::string& type) {
 /// So much of draft 7 as the schema uses; another keyword fails the test.
 class Validator {
  public:
+  explicit Validator(const json& root = schema()) : root_(root) {}
+
   bool conforms(const json& value, const json& rule) {
     return std::ranges::all_of(rule.items(), [&](const auto& keyword) {
       return holds(keyword.key(), keyword.value(), value, rule);
@@ -65,7 +71,7 @@ class Validator {
         keyword == "description" || keyword == "defaultSnippets" || keyword == "definitions")
       return true;
     if (keyword == "$ref")
-      return conforms(value, schema().at(json::json_pointer(wanted.get<std::string>().substr(1))));
+      return conforms(value, root_.at(json::json_pointer(wanted.get<std::string>().substr(1))));
     if (keyword == "const") return value == wanted;
     if (keyword == "enum") return std::ranges::find(wanted, value) != wanted.end();
     if (keyword == "anyOf")
@@ -78,6 +84,8 @@ class Validator {
       return !value.is_string() ||
              std::regex_search(value.get<std::string>(), std::regex(wanted.get<std::string>()));
     if (keyword == "minimum") return !value.is_number() || value >= wanted;
+    if (keyword == "exclusiveMinimum") return !value.is_number() || value > wanted;
+    if (keyword == "exclusiveMaximum") return !value.is_number() || value < wanted;
     if (keyword == "maximum") return !value.is_number() || value <= wanted;
     if (value.is_array()) return holds_of_list(keyword, wanted, value);
     return !value.is_object() || holds_of_map(keyword, wanted, value, rule);
@@ -109,7 +117,22 @@ class Validator {
       return wanted.is_boolean() ? wanted.get<bool>() : conforms(member.value(), wanted);
     });
   }
+
+  const json& root_;
 };
+
+/// How many files of a folder conform; all with that end have to.
+std::size_t conforming(const char* folder, const std::string& end, const json& root) {
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(ORIEL_SOURCE_DIR) / folder)) {
+    const std::string path = entry.path();
+    if (!path.ends_with(end)) continue;
+    CAPTURE(path);
+    CHECK(Validator(root).conforms(as_json(YAML::LoadFile(path)), root));
+    ++files;
+  }
+  return files;
+}
 
 bool conforms(const std::string& text) {
   return Validator().conforms(as_json(YAML::Load(text)), schema());
@@ -139,6 +162,15 @@ std::set<std::string> keys_of_loader(const std::string& pack) {
     }
   }
   return keys;
+}
+
+/// Adds all keys with a fixed name.
+void add_keys(const json& rule, std::set<std::string>& keys) {
+  if (rule.is_object() && rule.contains("properties"))
+    for (const auto& property : rule["properties"].items()) keys.insert(property.key());
+  for (const auto& inside : rule.items())
+    if (inside.key() != "defaultSnippets" && inside.value().is_structured())
+      add_keys(inside.value(), keys);
 }
 
 /// The keys without a description, with their paths.
@@ -195,6 +227,39 @@ TEST_SUITE("interpret") {
         ++packs;
       }
     CHECK(packs >= 3);
+  }
+
+  TEST_CASE("profiles and tests conform to their schemas and say what each key means") {
+    const json of_profiles = json::parse(rules::profile_grammar().schema());
+    const json of_tests = json::parse(rules::test_grammar().schema());
+    CHECK(conforming("rules/profiles", ".yaml", of_profiles) >= 5);
+    CHECK(conforming("rules", ".test.yaml", of_tests) +
+              conforming("rules/starter", ".test.yaml", of_tests) >=
+          2);
+    std::vector<std::string> undescribed;
+    find_undescribed(of_profiles, "profile", undescribed);
+    find_undescribed(of_tests, "tests", undescribed);
+    for (const std::string& key : undescribed) FAIL_CHECK(key);
+    const json wrong = as_json(YAML::Load("{tests_for: p, tests: [{name: n, givn: f}]}"));
+    CHECK_FALSE(Validator(of_tests).conforms(wrong, of_tests));
+  }
+
+  TEST_CASE("the pages name every key of packs and profiles and tests") {
+    std::string pages;
+    for (const char* page : {"docs/rules.md", "docs/generalisation.md"}) {
+      std::ifstream file(fs::path(ORIEL_SOURCE_DIR) / page);
+      pages.append(std::istreambuf_iterator<char>(file), {});
+    }
+    std::set<std::string> keys;
+    for (const auto* grammar :
+         {&rules::pack_grammar(), &rules::profile_grammar(), &rules::test_grammar()})
+      add_keys(json::parse(grammar->schema()), keys);
+    CHECK(keys.size() > 100);
+    for (const std::string& key : keys) {
+      const bool is_named = pages.find(key + ":") != std::string::npos ||
+                            pages.find("`" + key + "`") != std::string::npos;
+      CHECK_MESSAGE(is_named, key);
+    }
   }
 
   TEST_CASE("wrong packs whose form is wrong do not conform to the schema") {
