@@ -77,6 +77,11 @@ Series series(const Document& document, const std::vector<PipelineResult>& resul
               const RuleBase& rules, const std::vector<double>& scales,
               const SeriesOptions& options = {});
 
+/// The series of one building of a record, without groups: what series() has of it.
+Series series(const Document& document, const Building& building, const PipelineResult& result,
+              const RuleBase& rules, const std::vector<double>& scales,
+              const SeriesOptions& options = {});
+
 /// The record at 1 : scale, between 1 and the coarsest scale of the series. Throws GeometryError if
 /// an operation does not fit the state before it.
 OutputRecord at(const Series& series, double scale);

@@ -5,21 +5,20 @@
 #include "io/tiles/tileset_writer.h"
 #include "oriel/series.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace oriel {
 
-/// The buildings of a record at all scales of a tileset (write_tileset), in their order. `made` is
-/// what series() made of the document and `results` for `scales`, perhaps with
-/// SeriesOptions::has_only_levels: a level is the solid that at() gives, and the distance between
-/// two levels is no further off than 5 mm (level_distance_m). A building without levels looks at
-/// all scales as it was read; one without faces is left out, and so is one that is_passed_over.
-/// With `has_colours` faces have the colours of the input's materials (material_colours).
-std::vector<TileBuilding> tile_buildings(const Document& document,
-                                         const std::vector<PipelineResult>& results,
-                                         const Series& made, const std::vector<double>& scales,
-                                         bool has_colours = false);
+/// A building at all scales of a tileset (write_tileset). `made` is its series for `scales`,
+/// perhaps with SeriesOptions::has_only_levels: a level is the solid that at() gives, and the
+/// distance between two levels is no further off than 5 mm (level_distance_m). Without levels it
+/// looks at all scales as it was read; without faces there is nothing. Faces have `colours`, of
+/// material_colours().
+std::optional<TileBuilding> tile_building(const Building& building, const Series& made,
+                                          const std::vector<double>& scales,
+                                          const FaceColours& colours = {});
 
 /// So many scales from the first to the last in equal ratios, rounded to three digits, each once:
 /// what lies between has fewer buildings that change at the same time. `levels` is at least 2,

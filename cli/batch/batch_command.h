@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,28 +60,40 @@ class RecordVisitor final : public VisitingCommand {
   std::function<void()> begin_;
 };
 
+/// What one record adds to the outputs of a command, made building by building. Touches nothing
+/// else.
+class ProductMaker {
+ public:
+  virtual ~ProductMaker() = default;
+  /// Building number `building` after the pipeline; each in its order. Nothing of `result` is kept
+  /// but what is written.
+  virtual void add(std::size_t building, PipelineResult result) = 0;
+  /// All were added.
+  virtual Product finish() = 0;
+};
+
 /// A command that writes record by record: what it makes of one depends on no other. So its records
 /// can be made in forked processes (--isolate), be taken from an earlier run (--reuse), and a run
 /// can go on where it was killed (--resume).
 class ProducingCommand : public BatchCommand {
  public:
-  /// What a record of input number `input` adds to the outputs. Touches nothing else; several
-  /// threads may call it.
-  virtual Product make(std::size_t input, const Document& document,
-                       const std::vector<PipelineResult>& results, Timings& timings) const = 0;
-  /// Puts it there.
+  /// For a record of input number `input`; the references outlive it. Several threads may call it.
+  [[nodiscard]] virtual std::unique_ptr<ProductMaker> maker(std::size_t input,
+                                                            const Document& document,
+                                                            Timings& timings) const = 0;
+  /// Puts a product into the outputs.
   virtual void take(const Document& document, Product product) = 0;
   /// The outputs as they are.
-  [[nodiscard]] virtual PartPlaces places() const = 0;
+  [[nodiscard]] virtual PartPlaces places() const { return {}; }
   /// All that a product depends on besides source, configuration and rules.
-  [[nodiscard]] virtual std::string recipe() const = 0;
+  [[nodiscard]] virtual std::string recipe() const { return {}; }
   /// What was taken needs nothing but its outputs, so that the run can go on after any record.
-  [[nodiscard]] virtual bool is_streaming() const = 0;
+  [[nodiscard]] virtual bool is_streaming() const { return false; }
   /// All that it writes goes to files, so that a run that was killed can go on.
-  [[nodiscard]] virtual bool writes_files() const = 0;
+  [[nodiscard]] virtual bool writes_files() const { return false; }
   /// All inputs were done when an earlier run was killed: outputs of all of them together, which
   /// `begin` opens otherwise, are to be opened for `commit`.
-  virtual void reopen() = 0;
+  virtual void reopen() {}
   /// Counts of what was taken; kept and restored with the run. Null: there are none.
   virtual std::map<std::string, int>* counts() { return nullptr; }
 };

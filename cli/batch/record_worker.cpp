@@ -31,55 +31,73 @@ BuildingOutcome RecordWorker::outcome_of(const PipelineResult& result) const {
   return outcome;
 }
 
+PipelineResult RecordWorker::result_of(WorkItem& item, std::size_t i) const {
+  const Document& document = *item.record()->document.value;
+  PipelineResult result;
+  if (!options_.selection.takes(document.buildings[i], document.feature_type))
+    result.is_passed_over = true;
+  else if (const auto lost = item.lost.find(i); lost != item.lost.end())
+    result.issues.push_back(lost->second);
+  else
+    result = result_of(document.buildings[i], item.timings);
+  item.outcome.buildings.push_back(outcome_of(result));
+  return result;
+}
+
 void RecordWorker::work_on(WorkItem& item) const {
   if (!item.needs_work()) return;
-  const Document& document = *item.record()->document.value;
-  const std::vector<Building>& buildings = document.buildings;
-  for (std::size_t i = 0; i < buildings.size(); ++i) {
+  const std::size_t count = item.record()->document.value->buildings.size();
+  std::unique_ptr<ProductMaker> maker;
+  std::optional<Issue> fault;
+  const auto guarded = [&](const auto& step) {
+    if (fault) return;
+    try {
+      step();
+    } catch (const OutputError&) {
+      throw;  // a scratch file that fails is no fault of the record's
+    } catch (const std::exception& thrown) {
+      fault = own_fault(thrown);
+    }
+  };
+  if (producer_ != nullptr) guarded([&] { maker = maker_of(item); });
+  for (std::size_t i = 0; i < count; ++i) {
     now_at_building(i);
-    if (!options_.selection.takes(buildings[i], document.feature_type))
-      item.results.emplace_back().is_passed_over = true;
-    else if (const auto lost = item.lost.find(i); lost != item.lost.end())
-      item.results.emplace_back().issues.push_back(lost->second);
+    PipelineResult result = result_of(item, i);
+    now_at_building(i);
+    if (producer_ == nullptr)
+      item.results.push_back(std::move(result));
     else
-      item.results.push_back(result_of(buildings[i], item.timings));
-    item.outcome.buildings.push_back(outcome_of(item.results.back()));
+      guarded([&] { maker->add(i, std::move(result)); });
   }
   now_at_building(kNoBuilding);
   drop_unselected(item);
-  if (producer_ != nullptr && !is_passed_over(item)) make_product(item);
+  if (producer_ == nullptr || is_passed_over(item)) return;
+  guarded([&] { item.outcome.product = maker->finish(); });
+  if (fault) set_all_aside(item, std::move(*fault));
 }
 
-/// As if none of its buildings had come to the end.
-void RecordWorker::set_all_aside(WorkItem& item, Issue why) {
+std::unique_ptr<ProductMaker> RecordWorker::maker_of(WorkItem& item) const {
+  const Record& record = *item.record();
+  return producer_->maker(record.input, *record.document.value, item.timings);
+}
+
+/// A fault of ours, or memory that is used up, costs the record's buildings, as if none had come to
+/// the end; the record is written unchanged.
+void RecordWorker::set_all_aside(WorkItem& item, Issue why) const {
   const std::vector<Building>& buildings = item.record()->document.value->buildings;
+  const auto maker = maker_of(item);
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     BuildingOutcome& outcome = item.outcome.buildings[i];
+    PipelineResult nothing;
+    nothing.is_passed_over = outcome.is_passed_over;
+    maker->add(i, std::move(nothing));
     if (outcome.is_passed_over) continue;
-    item.results[i] = {};
     why.place.building = buildings[i].id;
     if (std::exchange(outcome.is_done, false)) outcome.issues.push_back(why);
     outcome.is_open = outcome.has_features = false;
     outcome.labels.clear();
   }
-}
-
-/// A fault of ours, or memory that is used up, costs the record's buildings; the record is written
-/// unchanged.
-void RecordWorker::make_product(WorkItem& item) const {
-  const Record& record = *item.record();
-  const auto make = [&] {
-    return producer_->make(record.input, *record.document.value, item.results, item.timings);
-  };
-  try {
-    item.outcome.product = make();
-  } catch (const OutputError&) {
-    throw;  // a scratch file that fails is no fault of the record's
-  } catch (const std::exception& fault) {
-    set_all_aside(item, own_fault(fault));
-    item.outcome.product = make();
-  }
-  item.results = {};
+  item.outcome.product = maker->finish();
 }
 
 /// Of a file with many records those go on that have something selected; other files are written

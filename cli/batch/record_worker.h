@@ -4,7 +4,7 @@
 #include "cli/batch/run_options.h"
 #include "oriel/rules.h"
 
-#include <string>
+#include <memory>
 
 namespace oriel::cli {
 
@@ -27,8 +27,9 @@ class RecordWorker {
  private:
   [[nodiscard]] PipelineResult result_of(const Building& building, Timings& timings) const;
   [[nodiscard]] BuildingOutcome outcome_of(const PipelineResult& result) const;
-  void make_product(WorkItem& item) const;
-  static void set_all_aside(WorkItem& item, Issue why);
+  [[nodiscard]] PipelineResult result_of(WorkItem& item, std::size_t building) const;
+  [[nodiscard]] std::unique_ptr<ProductMaker> maker_of(WorkItem& item) const;
+  void set_all_aside(WorkItem& item, Issue why) const;
 
   const RunOptions& options_;
   const RuleBase* rules_;

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -93,9 +94,9 @@ class Generaliser final : public ProducingCommand {
     changes_.begin(!runner_.is_last_run());
     outputs_.begin(input, !runner_.is_last_run());
   }
-  Product make(std::size_t input, const Document& document,
-               const std::vector<PipelineResult>& results, Timings& timings) const override {
-    return redraw_record(input, document, results, timings);
+  std::unique_ptr<ProductMaker> maker(std::size_t input, const Document& document,
+                                      Timings& timings) const override {
+    return std::make_unique<Maker>(*this, input, document, timings);
   }
   void take(const Document& document, Product product) override {
     outputs_.take(document, product);
@@ -139,45 +140,53 @@ class Generaliser final : public ProducingCommand {
   [[nodiscard]] std::vector<Issue> untyped() const { return outputs_.untyped(counted(kKept)); }
 
  private:
-  Product redraw_record(std::size_t input, const Document& document,
-                        const std::vector<PipelineResult>& lines, Timings& timings) const {
-    const GeneraliseOptions options = options_of(timings);
-    Product product;
-    OutputRecord output;
-    std::vector<GeneralisedBuilding> drawn;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      now_at_building(i);
-      drawn.push_back(
-          generalise(document, document.buildings[i], lines[i], rules_, targets_, options));
-      if (stays_open(lines[i], drawn[i])) report(drawn[i], product);
-    }
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (drawn[i].is_gone || drawn[i].leads_group) {
-        report(drawn[i], product);
-        add(std::move(drawn[i]), output);
-        continue;
+  class Maker final : public ProductMaker {
+   public:
+    Maker(const Generaliser& of, std::size_t input, const Document& document, Timings& timings)
+        : of_(of),
+          input_(input),
+          document_(document),
+          timings_(timings),
+          options_(of.options_of(timings)) {}
+    void add(std::size_t i, PipelineResult result) override {
+      const Building& building = document_.buildings[i];
+      auto drawn = generalise(document_, building, result, of_.rules_, of_.targets_, options_);
+      const bool is_grouped = drawn.is_gone || drawn.leads_group;
+      const bool stays_open = result.is_open() && !drawn.repaired && !is_grouped;
+      if (!is_grouped && !stays_open && !result.is_done()) return;
+      of_.report(drawn, stays_open ? open_ : product_);
+      if (stays_open) return;
+      if (!is_grouped) {
+        const PipelineResult& line = drawn.repaired ? *drawn.repaired : result;
+        of_.outputs_.make_features(building, line, product_);
+        of_.outputs_.add_attributes(building, line, output_);
+        count(drawn, line, product_);
       }
-      if (!lines[i].is_done() || stays_open(lines[i], drawn[i])) continue;
-      now_at_building(i);
-      const PipelineResult& line = drawn[i].repaired ? *drawn[i].repaired : lines[i];
-      outputs_.make_features(document.buildings[i], line, product);
-      outputs_.add_attributes(document.buildings[i], line, output);
-      report(drawn[i], product);
-      count(drawn[i], lines[i], product);
-      add(std::move(drawn[i]), output);
+      oriel::add(std::move(drawn), output_);
     }
-    now_at_building(kNoBuilding);
-    timings.measure(Stage::write, [&] {
-      std::ranges::move(overlaps_as_written(document, output), std::back_inserter(product.issues));
-      outputs_.make_buildings(input, document, std::move(output), product);
-    });
-    return product;
-  }
+    Product finish() override {
+      // Buildings of which nothing was drawn are named first.
+      for (Issue& issue : std::exchange(product_.issues, std::move(open_.issues)))
+        product_.issues.push_back(std::move(issue));
+      for (const OutputPart part : {OutputPart::changes, OutputPart::metrics})
+        product_[part].insert(0, open_[part]);
+      timings_.measure(Stage::write, [&] {
+        std::ranges::move(overlaps_as_written(document_, output_),
+                          std::back_inserter(product_.issues));
+        of_.outputs_.make_buildings(input_, document_, std::move(output_), product_);
+      });
+      return std::move(product_);
+    }
 
-  /// Nothing was drawn of it.
-  static bool stays_open(const PipelineResult& line, const GeneralisedBuilding& drawn) {
-    return line.is_open() && !drawn.repaired && !drawn.leads_group && !drawn.is_gone;
-  }
+   private:
+    const Generaliser& of_;
+    std::size_t input_;
+    const Document& document_;
+    Timings& timings_;
+    GeneraliseOptions options_;
+    OutputRecord output_;
+    Product product_, open_;
+  };
 
   [[nodiscard]] GeneraliseOptions options_of(Timings& timings) const {
     GeneraliseOptions options;
@@ -199,10 +208,9 @@ class Generaliser final : public ProducingCommand {
   }
 
   /// Of several levels of detail the first says what is gone from the building.
-  static void count(const GeneralisedBuilding& drawn, const PipelineResult& line,
+  static void count(const GeneralisedBuilding& drawn, const PipelineResult& from,
                     Product& product) {
     if (drawn.levels.empty()) return;
-    const PipelineResult& from = drawn.repaired ? *drawn.repaired : line;
     for (const auto& [label, count] : count_labels(from.interpretation))
       product.counts[kKept + label] += count;
     for (const auto& [label, count] : drawn.levels[0].removed) {

@@ -141,9 +141,9 @@ class Labeller final : public ProducingCommand {
     outputs_.begin(input, !runner_.is_last_run());
     tables_.begin(!runner_.is_last_run());
   }
-  Product make(std::size_t input, const Document& document,
-               const std::vector<PipelineResult>& results, Timings& timings) const override {
-    return timings.measure(Stage::write, [&] { return made_of(input, document, results); });
+  std::unique_ptr<ProductMaker> maker(std::size_t input, const Document& document,
+                                      Timings& timings) const override {
+    return std::make_unique<Maker>(*this, input, document, timings);
   }
   void take(const Document& document, Product product) override {
     if (!runner_.is_last_run()) product[OutputPart::listing].clear();
@@ -203,50 +203,60 @@ class Labeller final : public ProducingCommand {
   }
 
  private:
-  [[nodiscard]] Product made_of(std::size_t input, const Document& document,
-                                const std::vector<PipelineResult>& results) const {
-    Product product;
-    OutputRecord output{{}, arguments_.write_options()};
-    const std::vector<BuildingEnergy> energy = make_tables(document, results, product);
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      now_at_building(i);
-      const Building& building = document.buildings[i];
-      if (outputs_.has_buildings() && results[i].has_surfaces()) {
-        output.buildings.push_back(outputs_.annotated(building, results[i]));
-        if (arguments_.is_repaired && results[i].is_done())
-          put_on_solid(document, building, results[i], output.buildings.back(), product.issues);
-      }
-      if (!results[i].is_done()) continue;
-      outputs_.make_features(building, results[i], product);
-      outputs_.add_attributes(building, results[i], output);
-      if (!outputs_.has_any() && !tables_.has_any())
-        product[OutputPart::listing] += listing(building, results[i]);
+  class Maker final : public ProductMaker {
+   public:
+    Maker(const Labeller& of, std::size_t input, const Document& document, Timings& timings)
+        : of_(of), input_(input), document_(document), timings_(timings) {
+      if (of.arguments_.energy.has_any()) storeys_ = stated_storeys(document);
     }
-    now_at_building(kNoBuilding);
-    outputs_.make_buildings(input, document, std::move(output), product);
-    if (std::string& text = product[OutputPart::buildings];
-        !arguments_.energy.extension.empty() && !text.empty())
-      text = with_energy_extension(text, energy);
-    return product;
-  }
+    void add(std::size_t i, PipelineResult result) override {
+      timings_.measure(Stage::write, [&] { add(document_.buildings[i], i, result); });
+    }
+    Product finish() override {
+      timings_.measure(Stage::write, [&] {
+        of_.outputs_.make_buildings(input_, document_, std::move(output_), product_);
+        if (std::string& text = product_[OutputPart::buildings];
+            !of_.arguments_.energy.extension.empty() && !text.empty())
+          text = with_energy_extension(text, energy_);
+      });
+      return std::move(product_);
+    }
 
-  /// Adds the rows of the buildings, and returns what is known of them.
-  std::vector<BuildingEnergy> make_tables(const Document& document,
-                                          const std::vector<PipelineResult>& results,
-                                          Product& product) const {
-    std::vector<BuildingEnergy> all;
-    if (!arguments_.energy.has_any()) return all;
-    const auto storeys = stated_storeys(document);
-    const LabelOptions options = arguments_.label_options();
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      if (results[i].is_passed_over) continue;
-      now_at_building(i);
-      all.push_back(tables_.energy(document.buildings[i], results[i], rules_, options, storeys[i]));
-      tables_.make(all.back(), product);
-      if (results[i].is_done() && !all.back().is_known) ++product.counts[kUnmeasured];
+   private:
+    void add(const Building& building, std::size_t i, const PipelineResult& result) {
+      const LabelOutputs& outputs = of_.outputs_;
+      if (of_.arguments_.energy.has_any() && !result.is_passed_over)
+        measure_energy(building, i, result);
+      if (outputs.has_buildings() && result.has_surfaces()) {
+        LabelledBuilding& labelled =
+            output_.buildings.emplace_back(outputs.annotated(building, result));
+        if (of_.arguments_.is_repaired && result.is_done())
+          put_on_solid(document_, building, result, labelled, product_.issues);
+      }
+      if (!result.is_done()) return;
+      outputs.make_features(building, result, product_);
+      outputs.add_attributes(building, result, output_);
+      if (!outputs.has_any() && !of_.tables_.has_any())
+        product_[OutputPart::listing] += listing(building, result);
     }
-    return all;
-  }
+
+    void measure_energy(const Building& building, std::size_t i, const PipelineResult& result) {
+      energy_.push_back(of_.tables_.energy(building, result, of_.rules_,
+                                           of_.arguments_.label_options(), storeys_[i]));
+      of_.tables_.make(energy_.back(), product_);
+      if (result.is_done() && !energy_.back().is_known) ++product_.counts[kUnmeasured];
+      if (of_.arguments_.energy.extension.empty()) energy_.clear();
+    }
+
+    const Labeller& of_;
+    std::size_t input_;
+    const Document& document_;
+    Timings& timings_;
+    std::vector<std::optional<int>> storeys_;
+    std::vector<BuildingEnergy> energy_;  ///< for the extension
+    OutputRecord output_{{}, of_.arguments_.write_options()};
+    Product product_;
+  };
 
   const LabelArguments& arguments_;
   const RuleBase& rules_;

@@ -11,10 +11,13 @@
 #include "kernel/base/text/printable.h"
 #include "oriel/repair.h"
 
-#include <algorithm>
+#include <map>
 #include <memory>
-#include <optional>
 #include <ranges>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,7 +57,11 @@ std::string summary_of(const Building& building, const Repaired& repaired) {
       counted(report.cavities, "cavity", "cavities"));
 }
 
-class Repairer final : public VisitingCommand {
+/// The counts of buildings that became solids.
+constexpr const char* kRepaired = "repaired";
+constexpr const char* kClosed = "closed";
+
+class Repairer final : public ProducingCommand {
  public:
   Repairer(const RepairArguments& arguments, BatchRunner& runner)
       : arguments_(arguments),
@@ -70,57 +77,81 @@ class Repairer final : public VisitingCommand {
     if (runner_.is_last_run() && !report_ && !arguments_.report.empty())
       report_ = std::make_unique<OutputFile>(arguments_.report);
   }
-  void visit(const Document& document, std::vector<PipelineResult>& results) override {
-    runner_.timings().measure(Stage::write, [&] { add(document, results); });
+  std::unique_ptr<ProductMaker> maker(std::size_t input, const Document& document,
+                                      Timings& timings) const override {
+    return std::make_unique<Maker>(*this, input, document, timings);
+  }
+  void take(const Document& document, Product product) override {
+    sink_.take(document, product.labelled, product[OutputPart::buildings]);
+    if (!runner_.is_last_run()) return;
+    if (report_) report_->append(product[OutputPart::changes]);
+    std::istringstream lines(product[OutputPart::listing]);
+    for (std::string line; std::getline(lines, line);) run_log().write(LogLevel::info, line);
   }
   void end(std::size_t /*input*/) override {
     has_ended_ = true;
     runner_.timings().measure(Stage::write, [&] { sink_.end(); });
-    for (Issue& issue : sink_.take_issues()) issues_.push_back(std::move(issue));
   }
   void commit() override {
     if (report_ && has_ended_) report_->commit();
   }
+  std::map<std::string, int>* counts() override {
+    return runner_.is_last_run() ? &counts_ : nullptr;
+  }
 
-  [[nodiscard]] const std::vector<Issue>& issues() const { return issues_; }
-  [[nodiscard]] std::string summary() const {
-    return fmt::format("closed ({} repaired, {} found closed)", repaired_, closed_);
+  [[nodiscard]] std::vector<Issue> take_issues() { return sink_.take_issues(); }
+  [[nodiscard]] std::string summary() {
+    return fmt::format("closed ({} repaired, {} found closed)", counts_[kRepaired],
+                       counts_[kClosed]);
   }
 
  private:
-  /// Repairs a building and reports the errors that the runner has not reported with its line.
-  Repaired repaired(const Document& document, const Building& building, PipelineResult& line) {
-    const std::size_t reported = line.issues.size();
-    Repaired out = repair(document, building, std::move(line),
-                          arguments_.label_options(runner_.timings().observer()));
-    for (const Issue& issue : out.issues | std::views::drop(reported))
-      if (issue.severity == Severity::error) runner_.set_aside(issue);
-    return out;
-  }
-
-  void add(const Document& document, std::vector<PipelineResult>& lines) {
-    OutputRecord solids;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const Building& building = document.buildings[i];
-      Repaired one = repaired(document, building, lines[i]);
-      if (one.solid) solids.buildings.push_back(std::move(one.output));
-      if (!runner_.is_last_run()) continue;
-      if (one.solid) ++(one.report.was_needed ? repaired_ : closed_);
-      if (arguments_.is_verbose)
-        run_log().write(LogLevel::info, printable(summary_of(building, one)));
-      if (report_)
-        report_->append(repair_json(building, one.solid.has_value(), one.report, one.issues));
+  class Maker final : public ProductMaker {
+   public:
+    Maker(const Repairer& of, std::size_t input, const Document& document, Timings& timings)
+        : of_(of), input_(input), document_(document), timings_(timings) {}
+    void add(std::size_t i, PipelineResult result) override {
+      timings_.measure(Stage::write, [&] { add(document_.buildings[i], std::move(result)); });
     }
-    sink_.add(document, solids);
-  }
+    Product finish() override {
+      timings_.measure(Stage::write, [&] {
+        product_[OutputPart::buildings] =
+            of_.sink_.text(input_, document_, solids_, product_.issues);
+        if (of_.sink_.is_gathering(input_)) product_.labelled = std::move(solids_.buildings);
+      });
+      return std::move(product_);
+    }
+
+   private:
+    void add(const Building& building, PipelineResult result) {
+      const std::size_t reported = result.issues.size();
+      Repaired one = repair(document_, building, std::move(result),
+                            of_.arguments_.label_options(timings_.observer()));
+      for (const Issue& issue : one.issues | std::views::drop(reported))
+        if (issue.severity == Severity::error) product_.issues.push_back(issue);
+      if (one.solid) ++product_.counts[one.report.was_needed ? kRepaired : kClosed];
+      if (of_.arguments_.is_verbose)
+        product_[OutputPart::listing] += printable(summary_of(building, one)) + '\n';
+      if (!of_.arguments_.report.empty())
+        product_[OutputPart::changes] +=
+            repair_json(building, one.solid.has_value(), one.report, one.issues);
+      if (one.solid) solids_.buildings.push_back(std::move(one.output));
+    }
+
+    const Repairer& of_;
+    std::size_t input_;
+    const Document& document_;
+    Timings& timings_;
+    OutputRecord solids_;
+    Product product_;
+  };
 
   const RepairArguments& arguments_;
   BatchRunner& runner_;
   OutputSink sink_;
   std::unique_ptr<OutputFile> report_;
-  std::vector<Issue> issues_;  ///< of outputs
-  bool has_ended_ = false;     ///< an input did
-  int repaired_ = 0, closed_ = 0;
+  bool has_ended_ = false;  ///< an input did
+  std::map<std::string, int> counts_;
 };
 
 ExitCode work(RepairArguments& arguments) {
@@ -129,7 +160,7 @@ ExitCode work(RepairArguments& arguments) {
   BatchRunner runner(arguments, nullptr, report);
   Repairer command(arguments, runner);
   const ExitCode code = runner.run(command);
-  report.add(command.issues());
+  report.add(command.take_issues());
   runner.report_summary(command.summary(), {});
   return code;
 }

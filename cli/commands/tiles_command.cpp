@@ -9,6 +9,7 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/tiles/tiles_page.h"
+#include "io/cityjson/material_colours.h"
 #include "io/files/output_file.h"
 #include "io/files/partial_files.h"
 #include "kernel/base/text/counted.h"
@@ -86,22 +87,9 @@ class Tiler final : public ProducingCommand {
   void begin(std::size_t input) override {
     if (input == 0 || !file_) open(!runner_.is_last_run());
   }
-  Product make(std::size_t /*input*/, const Document& document,
-               const std::vector<PipelineResult>& results, Timings& timings) const override {
-    Product product;
-    SeriesOptions options;
-    static_cast<LabelOptions&>(options) = arguments_.label_options(timings.observer());
-    options.profile = arguments_.profile;
-    options.has_only_levels = true;
-    const std::vector<double>& scales = arguments_.tileset.scales;
-    const Series made = series(document, results, rules_, scales, options);
-    product.issues = made.issues;
-    timings.measure(Stage::write, [&] {
-      for (const TileBuilding& building :
-           tile_buildings(document, results, made, scales, has_material_colours()))
-        product[OutputPart::buildings] += to_bytes(building);
-    });
-    return product;
+  std::unique_ptr<ProductMaker> maker(std::size_t /*input*/, const Document& document,
+                                      Timings& timings) const override {
+    return std::make_unique<Maker>(*this, document, timings);
   }
   void take(const Document& /*document*/, Product product) override {
     file_->append(product[OutputPart::buildings]);
@@ -148,9 +136,39 @@ class Tiler final : public ProducingCommand {
   [[nodiscard]] const std::optional<TilesetFiles>& written() const { return written_; }
 
  private:
-  [[nodiscard]] bool has_material_colours() const {
-    return arguments_.tileset.glb.colours == GlbColours::by_material;
-  }
+  class Maker final : public ProductMaker {
+   public:
+    Maker(const Tiler& of, const Document& document, Timings& timings)
+        : of_(of), document_(document), timings_(timings) {
+      static_cast<LabelOptions&>(options_) = of.arguments_.label_options(timings.observer());
+      options_.profile = of.arguments_.profile;
+      options_.has_only_levels = true;
+      if (of.arguments_.tileset.glb.colours == GlbColours::by_material)
+        colours_ = material_colours(document);
+    }
+    void add(std::size_t i, PipelineResult result) override {
+      if (result.is_passed_over) return;
+      const Building& building = document_.buildings[i];
+      const std::vector<double>& scales = of_.arguments_.tileset.scales;
+      const Series made = series(document_, building, result, of_.rules_, scales, options_);
+      product_.issues.insert(product_.issues.end(), made.issues.begin(), made.issues.end());
+      timings_.measure(Stage::write, [&] {
+        const FaceColours none;
+        if (const auto tile =
+                tile_building(building, made, scales, colours_.empty() ? none : colours_[i]))
+          product_[OutputPart::buildings] += to_bytes(*tile);
+      });
+    }
+    Product finish() override { return std::move(product_); }
+
+   private:
+    const Tiler& of_;
+    const Document& document_;
+    Timings& timings_;
+    SeriesOptions options_;
+    std::vector<FaceColours> colours_;
+    Product product_;
+  };
 
   [[nodiscard]] std::string path_of(const char* name) const {
     return (fs::path(arguments_.folder) / name).string();

@@ -116,50 +116,48 @@ class SeriesDrawer {
       : document_(document),
         rules_(rules),
         scales_(scales),
+        asked_(options),
         options_(options),
         profile_(options.profile ? &*options.profile : nullptr),
-        bounds_(plan_bounds(rules)) {
+        grid_(document) {
     // Repairing and labelling again is measured as a part of generalising.
     options_.observer = nullptr;
+    if (!options.has_only_levels) bounds_ = plan_bounds(rules);
     for (std::size_t i = 0; i < options.groups.size(); ++i)
       groups_.push_back({scales[i], options.groups[i].get()});
   }
 
-  Series draw(const std::vector<PipelineResult>& results, const StageObserver& observer) {
-    Series series;
-    std::vector<std::unique_ptr<LevelDrawer>> all;
-    for (std::size_t i = 0; i < results.size() && !groups_.empty(); ++i)
-      if (results[i].surroundings)
-        around_.emplace(&document_.buildings[i], &*results[i].surroundings);
-    measure(observer, Stage::generalise, [&] {
-      for (std::size_t i = 0; i < results.size(); ++i)
-        if (results[i].is_done()) add_levels(document_.buildings[i], results[i], all, series);
-    });
-    const WrittenGrid grid(document_);
-    series.finer_digits = grid.finer_digits();
-    measure(observer, Stage::generalise, [&] {
-      for (const auto& one : all) add_operations(*one, grid, series);
-      add_undrawn(grid, series);
-    });
+  /// Adds what there is of a building by itself.
+  void add(const Building& building, const PipelineResult& result, Series& series) {
+    series.finer_digits = grid_.finer_digits();
+    if (!building.installations.empty()) {
+      const Building alone = without_installations(building);
+      return add(alone, label(alone, rules_, asked_), series);
+    }
+    if (result.surroundings && !groups_.empty()) around_.emplace(building.id, *result.surroundings);
+    if (result.is_done())
+      measure(asked_.observer, Stage::generalise, [&] { add_levels(building, result, series); });
+  }
+
+  /// Adds what there is of groups, after all buildings.
+  void add_groups(Series& series) const {
+    measure(asked_.observer, Stage::generalise, [&] { add_undrawn(series); });
     for (const Building& building : document_.buildings)
-      if (const auto around = around_.find(&building); around != around_.end())
-        std::ranges::move(issues_of_groups(groups_, *around->second),
+      if (const auto around = around_.find(building.id); around != around_.end())
+        std::ranges::move(issues_of_groups(groups_, around->second),
                           std::back_inserter(series.issues));
-    return series;
   }
 
  private:
-  void add_levels(const Building& building, const PipelineResult& result,
-                  std::vector<std::unique_ptr<LevelDrawer>>& all, Series& series) {
+  void add_levels(const Building& building, const PipelineResult& result, Series& series) const {
     std::vector<double> scales = scales_;
     scales.resize(std::min(first_in_its_block(building), scales_.size()));
-    auto one = std::make_unique<LevelDrawer>(document_, building, rules_, options_,
-                                             std::move(scales), scales_.front());
+    LevelDrawer one(document_, building, rules_, options_, std::move(scales), scales_.front());
     const Drawn& drawn = logged(
         "drawn at all scales", building,
         [&]() -> const Drawn& {
-          one->run(result);
-          return one->drawn();
+          one.run(result);
+          return one.drawn();
         },
         [](const Drawn& made) {
           return fmt::format("levels={} issues={}", made.levels.size(), made.issues.size());
@@ -171,20 +169,20 @@ class SeriesDrawer {
                         std::back_inserter(series.issues));
     if (!is_drawn) return;
     series.drawn.push_back(building.id);
-    all.push_back(std::move(one));
+    add_operations(one, series);
   }
 
-  void add_operations(const LevelDrawer& one, const WrittenGrid& grid, Series& out) const {
+  void add_operations(const LevelDrawer& one, Series& out) const {
     const Building& from = one.building();
     const LabelledBuilding& labelled = one.drawn().source->labelled;
     BuildingSeries building{from.id, from.frame, labelled.attributes, {}, {}, false};
     for (const Installation& installation : labelled.installations)
       building.installations.push_back(installation.id);
-    const Placer place = [&](Vec3 local_m) { return grid.place(local_m, from.frame); };
+    const Placer place = [&](Vec3 local_m) { return grid_.place(local_m, from.frame); };
     try {
       building.series = options_.has_only_levels ? level_series(one.drawn().levels, place)
                                                  : one.operations(bounds_, place);
-      add_groups(from, place, building.series);
+      add_group_levels(from, place, building.series);
     } catch (const DoubledFacet& fault) {
       out.issues.push_back(doubled(from, fault));
       return;
@@ -202,27 +200,29 @@ class SeriesDrawer {
 
   /// The number of the first scale at which it is in a block, or one that is no scale's.
   [[nodiscard]] std::size_t first_in_its_block(const Building& building) const {
-    const auto around = around_.find(&building);
-    return around == around_.end() ? scales_.size() : first_in_block(groups_, *around->second);
+    const auto around = around_.find(building.id);
+    return around == around_.end() ? scales_.size() : first_in_block(groups_, around->second);
   }
 
-  void add_groups(const Building& building, const Placer& place, ScaleSeries& series) const {
-    const auto around = around_.find(&building);
+  void add_group_levels(const Building& building, const Placer& place, ScaleSeries& series) const {
+    const auto around = around_.find(building.id);
     if (around == around_.end()) return;
-    add_group_operations(groups_, building, *around->second,
+    add_group_operations(groups_, building, around->second,
                          fmt::format("{}/buildings", profile_->title()), place, series);
   }
 
   /// Buildings without levels that become part of a block all the same.
-  void add_undrawn(const WrittenGrid& grid, Series& out) const {
+  void add_undrawn(Series& out) const {
     std::set<std::string> drawn;
     for (const BuildingSeries& one : out.buildings) drawn.insert(one.building);
-    for (const Building& building : document_.buildings) {
-      if (first_in_its_block(building) >= scales_.size() || drawn.contains(building.id)) continue;
+    for (const Building& read : document_.buildings) {
+      if (first_in_its_block(read) >= scales_.size() || drawn.contains(read.id)) continue;
+      const Building building = without_installations(read);
       BuildingSeries made{building.id, building.frame, {}, {}, {}, true};
       made.series.finest = state_as_read(document_, building);
-      add_groups(
-          building, [&](Vec3 local_m) { return grid.place(local_m, building.frame); }, made.series);
+      add_group_levels(
+          building, [&](Vec3 local_m) { return grid_.place(local_m, building.frame); },
+          made.series);
       add(std::move(made), out);
     }
   }
@@ -238,12 +238,14 @@ class SeriesDrawer {
   const Document& document_;
   const RuleBase& rules_;
   const std::vector<double>& scales_;
+  const SeriesOptions& asked_;
   SeriesOptions options_;
   const Profile* profile_;
   std::vector<double> bounds_;
   std::vector<GroupsAtScale> groups_;
-  /// What stands around the document's buildings, if there are groups.
-  std::map<const Building*, const Neighbourhood*> around_;
+  WrittenGrid grid_;
+  /// What stands around the document's buildings, by id, if there are groups.
+  std::map<std::string, Neighbourhood> around_;
 };
 
 }  // namespace
@@ -258,17 +260,20 @@ std::vector<SeriesOperation> Series::operations() const {
 Series series(const Document& document, const std::vector<PipelineResult>& results,
               const RuleBase& rules, const std::vector<double>& scales,
               const SeriesOptions& options) {
-  if (std::ranges::all_of(document.buildings,
-                          [](const Building& b) { return b.installations.empty(); }))
-    return SeriesDrawer(document, rules, scales, options).draw(results, options.observer);
-  Document alone = document;
-  std::vector<PipelineResult> of_alone = results;
-  for (std::size_t i = 0; i < alone.buildings.size(); ++i) {
-    if (alone.buildings[i].installations.empty()) continue;
-    alone.buildings[i] = without_installations(std::move(alone.buildings[i]));
-    of_alone[i] = label(alone.buildings[i], rules, options);
-  }
-  return SeriesDrawer(alone, rules, scales, options).draw(of_alone, options.observer);
+  Series all;
+  SeriesDrawer drawer(document, rules, scales, options);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    drawer.add(document.buildings[i], results[i], all);
+  drawer.add_groups(all);
+  return all;
+}
+
+Series series(const Document& document, const Building& building, const PipelineResult& result,
+              const RuleBase& rules, const std::vector<double>& scales,
+              const SeriesOptions& options) {
+  Series one;
+  SeriesDrawer(document, rules, scales, options).add(building, result, one);
+  return one;
 }
 
 OutputRecord at(const Series& series, double scale) { return levels(series, {scale})[0]; }

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <string_view>
 #include <utility>
 
 namespace oriel {
@@ -27,14 +25,11 @@ FlatMesh mesh_of(const Building& building, const LabelledBuilding& level,
 
 /// Facets of a level list the input polygons that they are made of, as the states of the series
 /// have them.
-void name_polygons(OutputRecord& level, const Series& made, double scale) {
-  for (std::size_t b = 0; b < made.buildings.size(); ++b) {
-    const ScaleSeries& series = made.buildings[b].series;
-    LevelState state = series.finest;
-    if (!move_state(state, series.operations, 0, scale) || !level.buildings[b].geometry) continue;
-    auto facet = level.buildings[b].geometry->facets.begin();
-    for (const auto& [outer, of_state] : state.facets) (facet++)->polygons = of_state.polygons;
-  }
+void name_polygons(LabelledBuilding& level, const ScaleSeries& series, double scale) {
+  LevelState state = series.finest;
+  if (!move_state(state, series.operations, 0, scale) || !level.geometry) return;
+  auto facet = level.geometry->facets.begin();
+  for (const auto& [outer, of_state] : state.facets) (facet++)->polygons = of_state.polygons;
 }
 
 /// A building that gains one level after the other, from fine to coarse.
@@ -73,31 +68,21 @@ class TileLevels {
 
 }  // namespace
 
-std::vector<TileBuilding> tile_buildings(const Document& document,
-                                         const std::vector<PipelineResult>& results,
-                                         const Series& made, const std::vector<double>& scales,
-                                         bool has_colours) {
-  std::vector<OutputRecord> drawn_levels = levels(made, scales);
-  for (std::size_t i = 0; i < scales.size() && has_colours; ++i)
-    name_polygons(drawn_levels[i], made, scales[i]);
-  std::map<std::string_view, std::size_t> drawn;
-  for (std::size_t i = 0; i < made.buildings.size(); ++i)
-    drawn.emplace(made.buildings[i].building, i);
-  std::vector<TileBuilding> out;
-  const auto colours = has_colours ? material_colours(document)
-                                   : std::vector<FaceColours>(document.buildings.size());
-  for (std::size_t b = 0; b < document.buildings.size(); ++b) {
-    if (results[b].is_passed_over) continue;
-    const Building& building = document.buildings[b];
-    TileLevels tile(building, colours[b]);
-    const auto found = drawn.find(building.id);
-    LabelledBuilding as_read;
-    as_read.building = building.id;
-    for (const OutputRecord& level : drawn_levels)
-      tile.add(found == drawn.end() ? as_read : level.buildings[found->second]);
-    out.push_back(tile.take());
-    if (out.back().meshes.front().triangles.empty()) out.pop_back();
+std::optional<TileBuilding> tile_building(const Building& building, const Series& made,
+                                          const std::vector<double>& scales,
+                                          const FaceColours& colours) {
+  std::vector<OutputRecord> drawn = levels(made, scales);
+  LabelledBuilding as_read;
+  as_read.building = building.id;
+  TileLevels tile(building, colours);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    LabelledBuilding& level = made.buildings.empty() ? as_read : drawn[i].buildings[0];
+    if (!colours.empty() && !made.buildings.empty())
+      name_polygons(level, made.buildings[0].series, scales[i]);
+    tile.add(level);
   }
+  TileBuilding out = tile.take();
+  if (out.meshes.front().triangles.empty()) return std::nullopt;
   return out;
 }
 
