@@ -4,6 +4,7 @@
 #include "kernel/base/index.h"
 #include "kernel/base/text/counted.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -31,12 +32,13 @@ std::string_view found_kind(const std::optional<dom::element>& element) {
 }
 
 std::optional<GeometryKind> kind_of_geometry(std::string_view type) {
-  const bool is_composite = type.starts_with("Composite");
-  if (type == "MultiSurface" || type == "CompositeSurface")
-    return GeometryKind{0, false, is_composite};
-  if (type == "Solid") return GeometryKind{1, true, false};
-  if (type == "MultiSolid" || type == "CompositeSolid") return GeometryKind{2, true, is_composite};
-  return std::nullopt;
+  constexpr std::array kKinds{
+      GeometryKind{0, false, false, "MultiSurface"},
+      GeometryKind{0, false, true, "CompositeSurface"}, GeometryKind{1, true, false, "Solid"},
+      GeometryKind{2, true, false, "MultiSolid"}, GeometryKind{2, true, true, "CompositeSolid"}};
+  const auto* found = std::ranges::find(kKinds, type, &GeometryKind::name);
+  if (found == kKinds.end()) return std::nullopt;
+  return *found;
 }
 
 std::size_t number_of_array(dom::element element) {
@@ -47,8 +49,8 @@ std::size_t number_of_array(dom::element element) {
 GeometryReader::GeometryReader(const std::vector<Vec3>& stored, const Transform& transform)
     : stored_(stored), transform_(transform), local_of_(stored.size(), -1) {}
 
-void GeometryReader::use(const PlainArrays& plain, std::string_view text) {
-  plain_ = &plain;
+void GeometryReader::use(const PlainArrays* plain, std::string_view text) {
+  plain_ = plain;
   text_ = text;
 }
 

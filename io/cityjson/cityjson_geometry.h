@@ -22,6 +22,8 @@ struct GeometryKind {
   bool is_solid = false;
   /// Its parts must hang together.
   bool is_composite = false;
+  /// The type.
+  std::string_view name{};
 };
 
 /// The kind of a type that is read: MultiSurface, CompositeSurface, Solid, MultiSolid,
@@ -39,8 +41,8 @@ class GeometryReader {
   GeometryReader(const std::vector<Vec3>& stored, const Transform& transform);
 
   /// The geometries that follow are of PlainArrays::rest; `text` is what `plain` has read. Both
-  /// must outlive the reader.
-  void use(const PlainArrays& plain, std::string_view text);
+  /// must outlive their reading. Null: they are as they stand in the text.
+  void use(const PlainArrays* plain, std::string_view text);
 
   /// Fills the frame, solidity, vertices and polygons of `building` from a geometry of a kind that
   /// is read. Local coordinates are (translate - origin) + scale × integer, so that they keep the

@@ -8,7 +8,6 @@
 #include <set>
 #include <tuple>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -63,8 +62,7 @@ std::optional<Fault> list_geometry(dom::element element, std::size_t number, boo
                                          "\"2.2\"",
                                          number, found_kind(lod))};
   entry.geometries.push_back(
-      {number, *object, *kind,
-       is_number ? lod_name(simdjson::minify(*lod)) : std::string(*as_string(lod))});
+      {number, *kind, is_number ? lod_name(simdjson::minify(*lod)) : std::string(*as_string(lod))});
   return std::nullopt;
 }
 
@@ -86,7 +84,7 @@ void list_relatives(dom::object object, ObjectEntry& entry) {
     const auto ids = as_array(member(object, key));
     if (!ids) continue;
     for (const dom::element id : *ids)
-      if (const auto text = as_string(id)) entry.relatives.push_back(*text);
+      if (const auto text = as_string(id)) entry.relatives.emplace_back(*text);
   }
 }
 
@@ -170,69 +168,65 @@ const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod)
   return surfaces;
 }
 
-std::vector<InstallationEntry> list_installations(dom::object objects,
-                                                  const std::vector<ObjectEntry>& entries,
-                                                  bool has_number_lods) {
+std::vector<InstallationEntry> ObjectList::take_installations() {
   std::unordered_map<std::string_view, std::size_t> entry_of, parent_of;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    entry_of.try_emplace(entries[i].id, i);
-    for (const std::string_view id : entries[i].relatives) parent_of.try_emplace(id, i);
+  for (std::size_t i = 0; i < entries_.size() && !installations_.empty(); ++i) {
+    entry_of.try_emplace(entries_[i].id, i);
+    for (const std::string& id : entries_[i].relatives) parent_of.try_emplace(id, i);
   }
-  std::vector<InstallationEntry> installations;
-  std::size_t number = 0;
-  for (const dom::key_value_pair field : objects) {
-    InstallationEntry entry{{number++, field.key, {}, {}, {}, false}, entries.size()};
-    const auto object = as_object(field.value);
-    const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
-    if (type != "BuildingInstallation" || shares_geometry(*object)) continue;
-    list_relatives(*object, entry.object);
-    for (const std::string_view id : entry.object.relatives)
+  for (InstallationEntry& entry : installations_) {
+    entry.host = entries_.size();
+    for (const std::string& id : entry.object.relatives)
       if (const auto found = entry_of.find(id); found != entry_of.end())
         entry.host = std::min(entry.host, found->second);
-    if (const auto found = parent_of.find(field.key); found != parent_of.end())
+    if (const auto found = parent_of.find(entry.object.id); found != parent_of.end())
       entry.host = std::min(entry.host, found->second);
-    if (entry.host == entries.size()) continue;
-    entry.object.fault = list_geometries(*object, has_number_lods, entry.object);
-    installations.push_back(std::move(entry));
   }
-  std::ranges::stable_sort(installations, {}, &InstallationEntry::host);
-  return installations;
+  std::erase_if(installations_,
+                [&](const InstallationEntry& entry) { return entry.host == entries_.size(); });
+  std::ranges::stable_sort(installations_, {}, &InstallationEntry::host);
+  return std::move(installations_);
 }
 
 std::vector<std::size_t> families_of(const std::vector<ObjectEntry>& entries) {
   std::vector<Relative> members;
   members.reserve(entries.size());
   for (const ObjectEntry& entry : entries)
-    members.push_back({entry.id, entry.relatives, entry.is_building});
+    members.push_back(
+        {entry.id, {entry.relatives.begin(), entry.relatives.end()}, entry.is_building});
   return families_of(members);
 }
 
-std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods,
-                                      ListedObjects listed) {
-  std::vector<ObjectEntry> entries;
-  std::unordered_set<std::string_view> ids;
-  std::size_t number = 0;
-  for (const dom::key_value_pair field : objects) {
-    ObjectEntry entry{number++, field.key, {}, {}, {}, false};
-    const auto object = as_object(field.value);
-    const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
-    if (!object)
-      entry.fault = {Code::E202,
-                     fmt::format("is {}; expected a CityObject", found_kind(field.value))};
-    else if (!type)
-      entry.fault = {Code::E201, "has no 'type', or one that is not a text"};
-    else if (entry.is_building = type == "Building" || type == "BuildingPart";
-             !entry.is_building && listed == ListedObjects::buildings)
-      continue;
-    else if (!ids.insert(field.key).second)
-      entry.fault = {Code::E207, "the id occurs twice in 'CityObjects'; the first one is read"};
-    else
-      entry.fault = list_geometries(*object, has_number_lods, entry);
-    if (object && entry.is_building) list_relatives(*object, entry);
-    if (object) entry.emptied_lod = emptied_lod_of(*object);
-    entries.push_back(std::move(entry));
-  }
-  return entries;
+bool ObjectList::add(std::size_t number, std::string_view id, dom::element member) {
+  ObjectEntry entry{number, id, {}, {}, {}, false};
+  const auto object = as_object(member);
+  const auto type = object ? as_string(detail::member(*object, "type")) : std::nullopt;
+  if (!object)
+    entry.fault = {Code::E202, fmt::format("is {}; expected a CityObject", found_kind(member))};
+  else if (!type)
+    entry.fault = {Code::E201, "has no 'type', or one that is not a text"};
+  else if (entry.is_building = type == "Building" || type == "BuildingPart";
+           !entry.is_building && listed_ == ListedObjects::buildings) {
+    if (type != "BuildingInstallation" || shares_geometry(*object)) return false;
+    list_relatives(*object, entry);
+    entry.fault = list_geometries(*object, has_number_lods_, entry);
+    installations_.push_back({std::move(entry), 0});
+    return false;
+  } else if (!ids_.insert(id).second)
+    entry.fault = {Code::E207, "the id occurs twice in 'CityObjects'; the first one is read"};
+  else
+    entry.fault = list_geometries(*object, has_number_lods_, entry);
+  if (object && entry.is_building) list_relatives(*object, entry);
+  if (object) entry.emptied_lod = emptied_lod_of(*object);
+  entries_.push_back(std::move(entry));
+  return true;
+}
+
+const GeometryEntry* probable_geometry(const ObjectEntry& entry,
+                                       const std::optional<std::string>& lod) {
+  if (entry.fault || entry.emptied_lod || entry.geometries.empty()) return nullptr;
+  return geometry_at(
+      entry, lod ? *lod : std::ranges::max(entry.geometries, is_lower, &GeometryEntry::lod).lod);
 }
 
 std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace oriel::detail {
@@ -28,7 +29,6 @@ std::vector<std::size_t> families_of(const std::vector<Relative>& members);
 struct GeometryEntry {
   /// Its number in the object's "geometry".
   std::size_t number = 0;
-  dom::object object;
   GeometryKind kind;
   std::string lod;
 };
@@ -40,7 +40,7 @@ struct ObjectEntry {
   std::string_view id;
   std::vector<GeometryEntry> geometries;
   /// Ids of its parents and children; none of an object that is no building.
-  std::vector<std::string_view> relatives;
+  std::vector<std::string> relatives;
   /// Why it cannot be read.
   std::optional<Fault> fault;
   /// True if it has GeometryInstances, which are not read.
@@ -72,21 +72,42 @@ struct GeometryChoice {
 /// Which members of "CityObjects" are listed.
 enum class ListedObjects { buildings, all };
 
-/// The buildings and parts of `objects`, or all members, in the order of the file. Members that are
-/// no CityObjects come too, with their fault (E201, E202); an id that stands twice has the fault
-/// E207. Levels of detail may be numbers, as in CityJSON 1.0, if `has_number_lods`.
-std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods,
-                                      ListedObjects listed = ListedObjects::buildings);
+/// Lists members of "CityObjects", which come in the order of the file.
+class ObjectList {
+ public:
+  /// Levels of detail may be numbers, as in CityJSON 1.0, if `has_number_lods`.
+  ObjectList(bool has_number_lods, ListedObjects listed)
+      : has_number_lods_(has_number_lods), listed_(listed) {}
 
-/// The installations among `objects` that stand on one of `entries`, its child or with it as a
-/// parent: in the order of their hosts, those of one host in the order of the file.
-std::vector<InstallationEntry> list_installations(dom::object objects,
-                                                  const std::vector<ObjectEntry>& entries,
-                                                  bool has_number_lods);
+  /// Takes the member number `number`. `id` must outlive the list. True if it is one of those
+  /// listed, and the last of `entries` now.
+  bool add(std::size_t number, std::string_view id, dom::element member);
+
+  /// The buildings and parts, or all members. Members that are no CityObjects come too, with their
+  /// fault (E201, E202); an id that stands twice has the fault E207.
+  [[nodiscard]] const std::vector<ObjectEntry>& entries() const { return entries_; }
+
+  /// The installations that stand on one of `entries`, its child or with it as a parent: in the
+  /// order of their hosts, those of one host in the order of the file. To be asked for once, when
+  /// all members are there; none unless only buildings are listed.
+  [[nodiscard]] std::vector<InstallationEntry> take_installations();
+
+ private:
+  bool has_number_lods_;
+  ListedObjects listed_;
+  std::vector<ObjectEntry> entries_;
+  std::unordered_set<std::string_view> ids_;
+  std::vector<InstallationEntry> installations_;
+};
 
 /// The geometry of an entry at that level of detail: the first solid, else the first surfaces; null
 /// if there is none.
 const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod);
+
+/// The geometry that choose_geometries() gives unless others of its family have a say: at `lod`, or
+/// at the highest level of the entry. Null if there is none.
+const GeometryEntry* probable_geometry(const ObjectEntry& entry,
+                                       const std::optional<std::string>& lod);
 
 /// The geometry to read of each entry, parallel to `entries` and their families: that of the level
 /// of detail `lod`, or of the highest one in the family (objects linked by parents and children); a

@@ -7,13 +7,14 @@
 #include "io/cityjson/stream_header.h"
 #include "io/json/dom.h"
 #include "io/json/json_check.h"
-#include "io/json/plain_arrays.h"
+#include "io/json/plain_parser.h"
+#include "io/json/raw_json.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <new>
+#include <map>
 #include <set>
 #include <span>
 #include <utility>
@@ -107,13 +108,31 @@ std::string read_crs(dom::object root) {
   return std::string(crs.value_or(std::string_view()));
 }
 
-/// What it says to the lines that follow, but the transform.
-SequenceHeader read_header(dom::object root, const std::string& text) {
+/// What it says to the lines that follow, but the transform and the facts.
+SequenceHeader read_header(dom::object root) {
   const auto version = as_string(member(root, "version"));
-  return {{},
-          read_crs(root),
-          std::string(version.value_or(std::string_view())),
-          stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")))};
+  return {{}, read_crs(root), std::string(version.value_or(std::string_view())), {}};
+}
+
+std::string facts_of(const std::string& text) {
+  return stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")));
+}
+
+/// Where the members of "CityObjects" stand in a text, in their order; in a text that is no JSON
+/// some places.
+std::vector<TextRange> object_ranges(std::string_view text) {
+  std::vector<TextRange> ranges;
+  const auto note = [&](std::string_view, std::size_t at) {
+    ranges.push_back({at, end_of_value(text, at)});
+    return ranges.back().end;
+  };
+  const std::size_t start = skip_space(text, 0);
+  if (start == text.size() || text[start] != '{') return ranges;
+  for_each_member(text, start, [&](std::string_view key, std::size_t at) {
+    const bool has_objects = at < text.size() && text[at] == '{' && decoded(key) == "CityObjects";
+    return has_objects ? for_each_member(text, at, note) : end_of_value(text, at);
+  });
+  return ranges;
 }
 
 /// The members that hold the model.
@@ -171,8 +190,7 @@ void drop_polygons(Building& building, std::size_t first) {
 /// Names what an entry has at the level of the geometry that is read besides that (E215).
 std::optional<Fault> unused_geometries(const ObjectEntry& entry, const GeometryEntry& read) {
   const auto name = [](const GeometryEntry& geometry) {
-    return fmt::format("geometry {} ({})", geometry.number,
-                       as_string(member(geometry.object, "type")).value_or(std::string_view()));
+    return fmt::format("geometry {} ({})", geometry.number, geometry.kind.name);
   };
   std::vector<std::string> unused;
   for (const GeometryEntry& geometry : entry.geometries)
@@ -192,7 +210,10 @@ std::span<const InstallationEntry> installations_on(const std::vector<Installati
 
 /// Adds the polygons of what stands on an entry to `building`, which was read last. One
 /// with a fault is left out, with a warning, and so is one whose polygons the building has all.
+/// `geometry_of(entry, geometry)` gives what `geometries` is to read.
+template <class GeometryOf>
 std::vector<GeometryPlace> join_installations(std::span<const InstallationEntry> installations,
+                                              const GeometryOf& geometry_of,
                                               GeometryReader& geometries, Building& building,
                                               std::vector<Fault>& warnings) {
   std::vector<GeometryPlace> places;
@@ -208,7 +229,7 @@ std::vector<GeometryPlace> join_installations(std::span<const InstallationEntry>
     const std::size_t first = building.polygons.size();
     const std::size_t first_vertex = building.vertices.size();
     if (corners.empty()) add_corners(building, 0, corners);
-    if (auto fault = geometries.add(geometry->object, geometry->kind, building)) {
+    if (auto fault = geometries.add(geometry_of(object, *geometry), geometry->kind, building)) {
       warn(std::move(*fault));
       continue;
     }
@@ -249,18 +270,22 @@ Building emptied_building(const ObjectEntry& entry, const Transform& transform,
 }
 
 /// The type of a CityObject; empty if there is none.
-std::string type_of(dom::object objects, std::string_view id) {
-  const auto object = as_object(member(objects, id));
-  const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
+std::string type_of(dom::element member) {
+  const auto object = as_object(member);
+  const auto type = object ? as_string(detail::member(*object, "type")) : std::nullopt;
   return std::string(type.value_or(std::string_view()));
 }
+
+/// A geometry that was read while its object was listed.
+struct GeometryRead {
+  Building building;
+  std::optional<Fault> fault;
+  std::vector<Fault> warnings;
+};
 
 }  // namespace
 
 struct CityJsonReader::State {
-  dom::parser parser;
-  PlainArrays plain;
-  bool is_plain = false;  ///< what was parsed is plain.rest()
   ReadOptions options;
   SequenceHeader header;
   std::string refused;
@@ -268,12 +293,24 @@ struct CityJsonReader::State {
   bool is_astray = false;  ///< the last header was not that of the stream
   std::vector<UnreadObject> unread;
 
+  /// Of a line the text, of a file all but the members of "CityObjects": each is parsed by itself.
+  PlainParser root_parser;
+  std::vector<TextRange> objects;  ///< those of a file
+  PlainParser object_parser;
+  std::optional<std::size_t> parsed;  ///< which of them it has parsed
+  dom::element object;                ///< this one
+  std::vector<dom::element> members;  ///< those of a line
+
   std::optional<Fault> check_feature(dom::object root, const SequenceHeader& of);
   std::optional<Fault> check_header(const std::string& text, const SequenceHeader& of);
-  bool parse_plain(dom::object& root);
+  simdjson::error_code parse_object(const std::string& text, std::size_t number);
+  void forget();
   std::optional<Issue> parse(const std::string& text, const TextName& name, dom::object& root);
-  void read_buildings(const Model& model, const std::string& text, const TextName& name,
-                      Document& document, CityJsonSource& source, std::vector<Issue>& issues);
+  std::optional<Issue> parse_objects(const std::string& text, const TextName& name,
+                                     std::size_t first = 0);
+  std::optional<Issue> read_buildings(const Model& model, const std::string& text,
+                                      const TextName& name, Document& document,
+                                      CityJsonSource& source, std::vector<Issue>& issues);
 };
 
 CityJsonReader::CityJsonReader(ReadOptions options) : state_(std::make_unique<State>()) {
@@ -290,40 +327,114 @@ std::vector<UnreadObject> CityJsonReader::take_unread() {
   return std::exchange(state_->unread, {});
 }
 
-bool CityJsonReader::State::parse_plain(dom::object& root) {
-  dom::element element;
-  const auto error = parser.parse(plain.rest()).get(element);
-  if (error == simdjson::MEMALLOC) throw std::bad_alloc();  // to parse once more would crash
-  return error == simdjson::SUCCESS && element.get(root) == simdjson::SUCCESS;
-}
+namespace {
 
-std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const TextName& name,
-                                                  dom::object& root) {
-  is_plain = plain.read(text) && parse_plain(root);
-  if (is_plain) return std::nullopt;
-  const bool has_padding = text.capacity() - text.size() >= simdjson::SIMDJSON_PADDING;
-  dom::element element;
-  const auto error = parser.parse(text.data(), text.size(), !has_padding).get(element);
-  if (error == simdjson::SUCCESS && element.get(root) == simdjson::SUCCESS) return std::nullopt;
-  if (error == simdjson::MEMALLOC) throw std::bad_alloc();
-  if (auto issue = find_json_error(name, text)) return issue;
+Issue json_error(const std::string& text, const TextName& name, simdjson::error_code error) {
+  if (auto issue = find_json_error(name, text)) return std::move(*issue);
   return error_in(name,
                   {Code::E104, fmt::format("not valid JSON: {}", simdjson::error_message(error))});
 }
 
-void CityJsonReader::State::read_buildings(const Model& model, const std::string& text,
-                                           const TextName& name, Document& document,
-                                           CityJsonSource& source, std::vector<Issue>& issues) {
+}  // namespace
+
+std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const TextName& name,
+                                                  dom::object& root) {
+  members.clear();
+  parsed.reset();
+  if (name.line == 0) objects = object_ranges(text);
+  dom::element element;
+  auto error = root_parser.parse(text, text.capacity() - text.size(), element, objects);
+  if (error == simdjson::SUCCESS) error = element.get(root);
+  if (error == simdjson::SUCCESS) return std::nullopt;
+  return json_error(text, name, error);
+}
+
+/// Of a whole file nothing comes after it.
+void CityJsonReader::State::forget() {
+  root_parser = {};
+  object_parser = {};
+  objects = {};
+}
+
+/// Puts the CityObject of that number into `object`.
+simdjson::error_code CityJsonReader::State::parse_object(const std::string& text,
+                                                         std::size_t number) {
+  if (parsed == number) return simdjson::SUCCESS;
+  if (number < members.size()) {
+    object = members[number];
+    return simdjson::SUCCESS;
+  }
+  const auto [begin, end] = objects[number];
+  parsed = number;
+  // It stands two levels deep.
+  return object_parser.parse(std::string_view(text).substr(begin, end - begin),
+                             text.capacity() - end, object, {}, PlainParser::kDepth - 2);
+}
+
+/// Says what is wrong if one of the members from `first` on is no JSON.
+std::optional<Issue> CityJsonReader::State::parse_objects(const std::string& text,
+                                                          const TextName& name, std::size_t first) {
+  for (std::size_t i = first; i < objects.size(); ++i)
+    if (const auto error = parse_object(text, i); error != simdjson::SUCCESS)
+      return json_error(text, name, error);
+  return std::nullopt;
+}
+
+std::optional<Issue> CityJsonReader::State::read_buildings(const Model& model,
+                                                           const std::string& text,
+                                                           const TextName& name, Document& document,
+                                                           CityJsonSource& source,
+                                                           std::vector<Issue>& issues) {
   const bool is_one = options.geometries == ReadGeometries::one;
-  const std::vector<ObjectEntry> entries =
-      list_objects(model.objects, header.version == "1.0",
-                   is_one ? ListedObjects::buildings : ListedObjects::all);
+  GeometryReader geometries(*model.vertices, source.transform);
+  const auto geometry_of = [&](const ObjectEntry& of, const GeometryEntry& geometry) {
+    parse_object(text, of.number);
+    if (!parsed) {
+      geometries.use(root_parser.arrays(), text);
+    } else {
+      const auto [begin, end] = objects[of.number];
+      geometries.use(object_parser.arrays(), std::string_view(text).substr(begin, end - begin));
+    }
+    return *as_object(as_array(member(*as_object(object), "geometry"))->at(geometry.number));
+  };
+  const auto read_now = [&](const ObjectEntry& of, const GeometryEntry& geometry) {
+    GeometryRead read;
+    read.building.id = of.id;
+    read.building.lod = geometry.lod;
+    read.building.frame.crs = header.crs;
+    read.fault = geometries.read(geometry_of(of, geometry), geometry.kind, read.building);
+    read.warnings = geometries.warnings();
+    return read;
+  };
+  ObjectList list(header.version == "1.0", is_one ? ListedObjects::buildings : ListedObjects::all);
+  // By entry and number: what is probably chosen is read while its object is there.
+  std::vector<std::map<std::size_t, GeometryRead>> ahead;
+  std::size_t number = 0;
+  for (const dom::key_value_pair field : model.objects) {
+    if (name.line > 0) members.push_back(field.value);
+    if (const auto error = parse_object(text, number); error != simdjson::SUCCESS)
+      return json_error(text, name, error);
+    if (const PlainArrays* plain = object_parser.arrays())
+      for (std::size_t i = 0; i < plain->size(); ++i)
+        source.arrays.push_back({objects[number].begin + plain->place(i).begin,
+                                 objects[number].begin + plain->place(i).end});
+    if (name.line > 0 && document.feature_type.empty() && field.key == document.feature_id)
+      document.feature_type = type_of(object);
+    if (list.add(number++, field.key, object)) {
+      const ObjectEntry& entry = list.entries().back();
+      auto& reads = ahead.emplace_back();
+      if (!parsed) continue;
+      for (const GeometryEntry* geometry :
+           geometries_to_read(entry, probable_geometry(entry, options.lod), options.geometries))
+        reads.emplace(geometry->number, read_now(entry, *geometry));
+    }
+  }
+  if (auto issue = parse_objects(text, name, number)) return issue;
+  const std::vector<ObjectEntry>& entries = list.entries();
   const std::vector<std::size_t> families = families_of(entries);
   const std::vector<GeometryChoice> choices = choose_geometries(entries, families, options.lod);
-  std::vector<InstallationEntry> installations;
-  if (is_one) installations = list_installations(model.objects, entries, header.version == "1.0");
-  GeometryReader geometries(*model.vertices, source.transform);
-  if (is_plain) geometries.use(plain, text);
+  const std::vector<InstallationEntry> installations = list.take_installations();
+  document.buildings.reserve(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ObjectEntry& entry = entries[i];
     if (options.keeps_emptied && entry.emptied_lod) {
@@ -340,25 +451,17 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
       report(Severity::note, {Code::E206, "geometry templates (GeometryInstance) are not read"});
     if (!is_one && entry.has_instances && entry.geometries.empty())
       unread.push_back({std::string(entry.id), "GeometryInstance"});
+    const auto standing = installations_on(installations, i);
     const std::vector<const GeometryEntry*> taken =
         geometries_to_read(entry, choices[i].geometry, options.geometries);
     if (choices[i].finding && taken.empty()) report(choices[i].severity, *choices[i].finding);
-    const auto read = [&](const ObjectEntry& of, const GeometryEntry& geometry,
-                          std::optional<Severity> severity) -> std::optional<Building> {
-      Building building;
-      building.id = of.id;
-      building.lod = geometry.lod;
-      building.frame.crs = header.crs;
-      const auto fault = geometries.read(geometry.object, geometry.kind, building);
-      if (!fault) return building;
-      if (severity) report(*severity, *fault);
-      return std::nullopt;
-    };
     const auto keep_beside = [&](const ObjectEntry& of, std::optional<Severity> severity) {
-      for (const GeometryEntry& geometry : of.geometries)
-        if (geometry.lod == taken[0]->lod && &geometry != taken[0])
-          if (auto rest = read(of, geometry, severity))
-            source.beside.emplace(entry.id, std::move(*rest));
+      for (const GeometryEntry& geometry : of.geometries) {
+        if (geometry.lod != taken[0]->lod || &geometry == taken[0]) continue;
+        GeometryRead rest = read_now(of, geometry);
+        if (!rest.fault) source.beside.emplace(entry.id, std::move(rest.building));
+        if (rest.fault && severity) report(*severity, *rest.fault);
+      }
     };
     if (is_one && !taken.empty()) {
       if (const auto unused = unused_geometries(entry, *taken[0]))
@@ -367,34 +470,39 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
       // Where installations are joined their faults are named then.
       const auto of_installations =
           options.joins_installations ? std::nullopt : std::optional(Severity::warning);
-      for (const InstallationEntry& installation : installations_on(installations, i))
+      for (const InstallationEntry& installation : standing)
         keep_beside(installation.object, of_installations);
     }
     for (const GeometryEntry* geometry : taken) {
-      auto building = read(entry, *geometry, Severity::error);
-      if (!building) continue;
-      std::vector<Fault> warnings = geometries.warnings();
+      const auto found = ahead[i].find(geometry->number);
+      const bool is_read = found != ahead[i].end() && standing.empty();
+      GeometryRead read = is_read ? std::move(found->second) : read_now(entry, *geometry);
+      if (read.fault) {
+        report(Severity::error, *read.fault);
+        continue;
+      }
       source.joined.emplace_back();
       if (options.joins_installations)
         source.joined.back() =
-            join_installations(installations_on(installations, i), geometries, *building, warnings);
-      for (const Fault& warning : warnings) report(Severity::warning, warning);
-      document.buildings.push_back(std::move(*building));
+            join_installations(standing, geometry_of, geometries, read.building, read.warnings);
+      for (const Fault& warning : read.warnings) report(Severity::warning, warning);
+      document.buildings.push_back(std::move(read.building));
       source.places.push_back({entry.number, geometry->number});
       document.families.push_back(entry.is_building ? families[i] : kNoFamily);
     }
+    ahead[i].clear();
   }
   if (entries.empty() && name.line == 0) {
     issues.push_back(error_in(name, {Code::E209, "has no Building and no BuildingPart"}));
     issues.back().severity = Severity::warning;
   }
+  return std::nullopt;
 }
 
 /// A header among the features: nothing is wrong with the one that the stream has.
 std::optional<Fault> CityJsonReader::State::check_header(const std::string& text,
                                                          const SequenceHeader& of) {
-  const std::string facts =
-      stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")));
+  const std::string facts = facts_of(text);
   is_astray = facts != of.facts;
   if (!is_astray) return std::nullopt;
   return Fault{Code::E116, fmt::format("is a header with {}; the header of the stream has {}",
@@ -420,12 +528,17 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
                                        const std::optional<SequenceHeader>& header) {
   Checked<Document> result;
   std::string id;  // of a feature
-  const auto refuse = [&](const Fault& fault) {
-    result.issues.push_back(error_in(name, fault));
+  const auto give_up = [&](Issue issue) {
+    result.issues = {std::move(issue)};
     state_->refused = std::move(text);
-    if (result.issues[0].place.building.empty() && !id.empty())
-      result.issues[0].place.building = id;
     return std::move(result);
+  };
+  // What is no JSON is nothing else.
+  const auto refuse = [&](const Fault& fault) {
+    if (auto broken = state_->parse_objects(text, name)) return give_up(std::move(*broken));
+    Issue issue = error_in(name, fault);
+    if (issue.place.building.empty() && !id.empty()) issue.place.building = id;
+    return give_up(std::move(issue));
   };
   dom::object root;
   auto issue = state_->parse(text, name, root);
@@ -433,11 +546,7 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
     add_transform(text);
     issue = state_->parse(text, name, root);
   }
-  if (issue) {
-    result.issues.push_back(std::move(*issue));
-    state_->refused = std::move(text);
-    return result;
-  }
+  if (issue) return give_up(std::move(*issue));
   if (header && as_string(member(root, "type")) == "CityJSON") {
     if (const auto fault = state_->check_header(text, *header)) return refuse(*fault);
     return result;
@@ -448,27 +557,30 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
     id = as_string(member(root, "id")).value_or(std::string_view());
     if (const auto fault = state_->check_feature(root, *header)) return refuse(*fault);
   }
-  state_->header = header ? *header : read_header(root, text);
+  state_->header = header ? *header : read_header(root);
+  if (!header && name.line > 0) state_->header.facts = facts_of(text);
   if (!header)
     if (const auto fault = read_transform(root, state_->header.transform)) return refuse(*fault);
   Model model;
-  if (const auto fault = read_model(root, state_->is_plain ? &state_->plain : nullptr, model))
-    return refuse(*fault);
+  const PlainArrays* plain = state_->root_parser.arrays();
+  if (const auto fault = read_model(root, plain, model)) return refuse(*fault);
 
   auto source = std::make_shared<CityJsonSource>();
   source->transform = state_->header.transform;
   source->is_feature = header.has_value();
-  if (state_->is_plain)
-    for (std::size_t i = 0; i < state_->plain.size(); ++i)
-      source->arrays.push_back(state_->plain.place(i));
   Document document;
   document.name = name.line > 0 ? fmt::format("{}:{}", name.file, name.line) : name.file;
   document.format = name.line > 0 ? Format::cityjson_seq : Format::cityjson;
   if (header) {
     document.feature_id = id;
-    document.feature_type = type_of(model.objects, id);
+    document.feature_type.clear();
   }
-  state_->read_buildings(model, text, name, document, *source, result.issues);
+  if ((issue = state_->read_buildings(model, text, name, document, *source, result.issues)))
+    return give_up(std::move(*issue));
+  for (std::size_t i = 0; plain != nullptr && i < plain->size(); ++i)
+    source->arrays.push_back(plain->place(i));
+  std::ranges::sort(source->arrays, {}, &TextRange::begin);
+  if (name.line == 0) state_->forget();
   source->text = std::move(text);
   document.source = std::move(source);
   result.value = std::move(document);

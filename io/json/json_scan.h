@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -21,6 +22,23 @@ std::size_t skip_space(std::string_view text, std::size_t at);
 /// none in another one. Of them only those count that are slices of `text`.
 std::size_t end_of_value(std::string_view text, std::size_t at,
                          std::span<const std::string_view> known = {});
+
+/// Goes through the members of the object that starts at `text[at]`: `visit(key, at)` gets the raw
+/// key, with its quotes, and the offset of the value, and returns that behind it. Returns the
+/// offset behind the object; of other text some offset ≤ text.size().
+template <class Visit>
+std::size_t for_each_member(std::string_view text, std::size_t at, const Visit& visit) {
+  at = skip_space(text, at + 1);
+  while (at < text.size() && text[at] == '"') {
+    const std::size_t end = end_of_value(text, at);
+    const std::string_view key = text.substr(at, end - at);
+    const std::size_t value = skip_space(text, std::min(skip_space(text, end) + 1, text.size()));
+    at = skip_space(text, visit(key, value));
+    if (at >= text.size() || text[at] != ',') break;
+    at = skip_space(text, at + 1);
+  }
+  return std::min(at + 1, text.size());
+}
 
 /// Appends the arrays that are elements of the array `text`, in which there is no string and no
 /// object, at whatever depth.

@@ -152,27 +152,35 @@ void NestedNumbers::clear() {
   for (auto& level : ends) level.clear();
 }
 
-bool PlainArrays::read(const std::string& text) {
+bool PlainArrays::read(std::string_view text, std::span<const TextRange> cut) {
   rest_.clear();
   size_ = 0;
-  return read_arrays(text) && rest_.find('\\') == std::string::npos;
+  return read_arrays(text, cut) && rest_.find('\\') == std::string::npos;
 }
 
 /// Goes from string to string: without a backslash every second quote ends one.
-bool PlainArrays::read_arrays(const std::string& text) {
+bool PlainArrays::read_arrays(std::string_view text, std::span<const TextRange> cut) {
   std::size_t copied = 0;
   std::size_t next = text.find('"');
-  while (next != std::string::npos) {
+  while (true) {
+    for (; !cut.empty() && next >= cut[0].begin; cut = cut.subspan(1)) {
+      rest_.append(text, copied, cut[0].begin - copied).append("{}");
+      copied = cut[0].end;
+      next = text.find('"', copied);
+    }
+    if (next == std::string::npos) break;
     const std::size_t close = text.find('"', next + 1);
     if (close == std::string::npos) return false;
     const std::string_view string(&text[next + 1], close - next - 1);
     const std::size_t colon = skip_space(text, close + 1);
     const bool has_vertices = string == "vertices";
-    const bool is_key = (has_vertices || string == "boundaries") && text[colon] == ':';
+    const bool is_key =
+        (has_vertices || string == "boundaries") && colon < text.size() && text[colon] == ':';
     next = close + 1;
     if (is_key) {
       Array& array = next_array();
       array.place.begin = skip_space(text, colon + 1);
+      if (array.place.begin >= text.size()) return false;
       NumberScan scan(text.data() + array.place.begin, text.data() + text.size());
       if (has_vertices ? !take_vertices(scan, array.vertices)
                        : !take_nested(scan, array.boundaries))
@@ -185,7 +193,7 @@ bool PlainArrays::read_arrays(const std::string& text) {
     }
     next = text.find('"', next);
   }
-  rest_.append(text, copied);
+  rest_.append(text, copied, std::string::npos);
   return true;
 }
 

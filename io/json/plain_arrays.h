@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,11 +35,13 @@ class PlainArrays {
   /// Reads those of `text`. False if one is not plain, and then nothing of this holds: "vertices"
   /// are arrays of three whole numbers of at most 16 digits, "boundaries" are as NestedNumbers, of
   /// at most 9 digits, without a sign, and no array but that of all vertices is empty. Nor may the
-  /// text have a backslash.
-  bool read(const std::string& text);
+  /// text have a backslash. `text` is followed by a zero byte or by what stands behind it in a JSON
+  /// text. What `cut` names, values in their order, is not looked at.
+  bool read(std::string_view text, std::span<const TextRange> cut = {});
 
   /// The text with each of the arrays as its number from 0 on, within as many brackets as the
-  /// array is deep. It is valid JSON if and only if the text read is.
+  /// array is deep, and {} for what was cut. It is valid JSON if and only if the text read is, and
+  /// so are the values that were cut.
   [[nodiscard]] const std::string& rest() const { return rest_; }
 
   /// How many arrays there are; their places are ascending.
@@ -60,7 +63,7 @@ class PlainArrays {
     NestedNumbers boundaries;
   };
 
-  bool read_arrays(const std::string& text);
+  bool read_arrays(std::string_view text, std::span<const TextRange> cut);
   Array& next_array();
 
   std::string rest_;
