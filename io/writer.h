@@ -3,7 +3,10 @@
 #include "io/document.h"
 #include "model/labelled_building.h"
 
+#include <functional>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -72,5 +75,28 @@ struct WriteOptions {
 /// a labelled building is not one of the document.
 std::string write_cityjson(const Document& document, const std::vector<LabelledBuilding>& labelled,
                            const WriteOptions& options = {});
+
+/// What write_cityjson() writes, of buildings that come one by one and are not kept.
+class CityJsonText {
+ public:
+  /// Both must outlive it; of the options those that say which buildings and objects leave are
+  /// looked at in the end, but for `emptied`.
+  CityJsonText(const Document& document, const WriteOptions& options);
+  ~CityJsonText();
+  CityJsonText(CityJsonText&&) noexcept;
+  CityJsonText& operator=(CityJsonText&&) noexcept;
+
+  void add(const LabelledBuilding& labelled);
+
+  /// All were added; what is to be done then is done once.
+  void finish();
+  /// The text, as a whole or piece by piece.
+  [[nodiscard]] std::string text();
+  void write(const std::function<void(std::string_view)>& sink);
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace oriel

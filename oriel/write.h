@@ -10,10 +10,12 @@
 #include "oriel/result.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -48,6 +50,37 @@ std::vector<FeatureRecord> feature_records(const Building& building, const Pipel
 std::string mesh_text(Format format, const MeshSource& mesh,
                       StlSolids solids = StlSolids::by_label);
 
+/// One record on its way into a file: buildings come one by one, and are kept only where the format
+/// needs all of them.
+class RecordText {
+ public:
+  /// `format` is one that is written (as_written()); `document` must outlive it.
+  RecordText(Format format, const Document& document, WriteOptions options = {});
+  RecordText(const RecordText&) = delete;
+  RecordText& operator=(const RecordText&) = delete;
+
+  /// What is to be written. take() moves its buildings on, but for those of meshes.
+  OutputRecord output;
+  void take();
+  void add(const LabelledBuilding& building);
+
+  /// All were taken. What the record adds to the file, as bytes; empty for meshes, which are made
+  /// of the buildings when all are there. `issues` gets what is found: E166 (warning) of CityGML
+  /// with WriteOptions::closes_installations.
+  [[nodiscard]] std::string text(std::vector<Issue>& issues);
+  /// The text is a CityJSON file, which can be had piece by piece instead; all that can fail is
+  /// done by finish().
+  [[nodiscard]] bool is_file() const;
+  void finish() { text_.finish(); }
+  void write(const std::function<void(std::string_view)>& sink) { text_.write(sink); }
+
+ private:
+  Format format_;
+  const Document& document_;
+  CityJsonText text_;
+  std::size_t buildings_ = 0;
+};
+
 /// A file of records while it is written, in any format; it appears whole or not at all. Failures
 /// throw OutputError E601.
 class RecordFile {
@@ -58,14 +91,11 @@ class RecordFile {
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 
-  /// What a record adds to a file of this format, as bytes; empty for meshes, which are made of the
-  /// buildings when all are there. `issues` gets what is found: E166 (warning) of CityGML with
-  /// WriteOptions::closes_installations. Several threads may call it.
-  static std::string text(Format format, const Document& document, const OutputRecord& output,
-                          std::vector<Issue>& issues);
   /// Puts a record behind those before it, whose text it was.
   void take(const Document& document, const std::vector<LabelledBuilding>& labelled,
             const std::string& text);
+  /// The same of one that is_file().
+  void take(const Document& document, RecordText& record);
   /// Puts the file in its place. Returns what was found, once for all records: E165, and E161 for
   /// CityGML and a GeoPackage of buildings without a reference system, both warnings.
   std::vector<Issue> commit();
@@ -74,6 +104,8 @@ class RecordFile {
   [[nodiscard]] std::uint64_t size() const { return file_.size(); }
 
  private:
+  std::string note_crs(const Document& document);
+
   std::string path_;
   Format format_;
   StlSolids solids_;

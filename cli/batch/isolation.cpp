@@ -217,6 +217,7 @@ void Isolation::be_worker(const Batch& batch, int pipe) const noexcept {
     if (!item.needs_work()) continue;
     item_at_hand = &item;
     callbacks_.work(item);
+    item.outcome.product.flatten();
     if (!send(pipe, message_of(item))) break;
     now_at_building(kNoBuilding);
   }

@@ -33,6 +33,11 @@ std::vector<Issue> issues_of(const ordered_json& list) {
 
 }  // namespace
 
+void Product::flatten() {
+  if (file) (*this)[OutputPart::buildings] = file->text(issues);
+  file.reset();
+}
+
 ordered_json to_json(const RecordOutcome& outcome) {
   ordered_json buildings = ordered_json::array();
   for (const BuildingOutcome& building : outcome.buildings)

@@ -4,10 +4,12 @@
 #include "kernel/base/issue.h"
 #include "model/labelled_building.h"
 #include "oriel/result.h"
+#include "oriel/write.h"
 
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,10 +38,15 @@ struct Product {
   /// In place of bytes for buildings, of outputs that are written when all records are there (OBJ,
   /// OFF, STL).
   std::vector<LabelledBuilding> labelled{};
+  /// In place of bytes for buildings, of a CityJSON file: written piece by piece when it is taken.
+  std::shared_ptr<RecordText> file{};
   /// To be reported after those of the buildings; an error says that a building was set aside.
   std::vector<Issue> issues{};
   /// Counts of the command, to be added to its own.
   std::map<std::string, int> counts{};
+
+  /// Puts the text of `file` into its place among the bytes.
+  void flatten();
 
   std::string& operator[](OutputPart part) { return bytes[static_cast<std::size_t>(part)]; }
   const std::string& operator[](OutputPart part) const {

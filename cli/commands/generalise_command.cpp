@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -144,10 +145,12 @@ class Generaliser final : public ProducingCommand {
    public:
     Maker(const Generaliser& of, std::size_t input, const Document& document, Timings& timings)
         : of_(of),
-          input_(input),
           document_(document),
           timings_(timings),
-          options_(of.options_of(timings)) {}
+          options_(of.options_of(timings)),
+          record_(of.outputs_.record(input, document)) {
+      for (const std::size_t family : document.families) ++family_sizes_[family];
+    }
     void add(std::size_t i, PipelineResult result) override {
       const Building& building = document_.buildings[i];
       auto drawn = generalise(document_, building, result, of_.rules_, of_.targets_, options_);
@@ -159,10 +162,17 @@ class Generaliser final : public ProducingCommand {
       if (!is_grouped) {
         const PipelineResult& line = drawn.repaired ? *drawn.repaired : result;
         of_.outputs_.make_features(building, line, product_);
-        of_.outputs_.add_attributes(building, line, output_);
+        of_.outputs_.add_attributes(building, line, record_->output);
         count(drawn, line, product_);
       }
-      oriel::add(std::move(drawn), output_);
+      auto& written = record_->output.buildings;
+      const auto before = static_cast<std::ptrdiff_t>(written.size());
+      oriel::add(std::move(drawn), record_->output);
+      // Whether they overlap shows when all are there.
+      if (!document_.families.empty() && family_sizes_[document_.families[i]] > 1)
+        relatives_.buildings.insert(relatives_.buildings.end(), written.begin() + before,
+                                    written.end());
+      record_->take();
     }
     Product finish() override {
       // Buildings of which nothing was drawn are named first.
@@ -171,20 +181,22 @@ class Generaliser final : public ProducingCommand {
       for (const OutputPart part : {OutputPart::changes, OutputPart::metrics})
         product_[part].insert(0, open_[part]);
       timings_.measure(Stage::write, [&] {
-        std::ranges::move(overlaps_as_written(document_, output_),
+        relatives_.options.gone = record_->output.options.gone;
+        std::ranges::move(overlaps_as_written(document_, relatives_),
                           std::back_inserter(product_.issues));
-        of_.outputs_.make_buildings(input_, document_, std::move(output_), product_);
+        LabelOutputs::finish(record_, product_);
       });
       return std::move(product_);
     }
 
    private:
     const Generaliser& of_;
-    std::size_t input_;
     const Document& document_;
     Timings& timings_;
     GeneraliseOptions options_;
-    OutputRecord output_;
+    std::shared_ptr<RecordText> record_;
+    std::unordered_map<std::size_t, std::size_t> family_sizes_;
+    OutputRecord relatives_;  ///< the geometries of families of several
     Product product_, open_;
   };
 

@@ -206,7 +206,10 @@ class Labeller final : public ProducingCommand {
   class Maker final : public ProductMaker {
    public:
     Maker(const Labeller& of, std::size_t input, const Document& document, Timings& timings)
-        : of_(of), input_(input), document_(document), timings_(timings) {
+        : of_(of),
+          document_(document),
+          timings_(timings),
+          record_(of.outputs_.record(input, document, of.arguments_.write_options())) {
       if (of.arguments_.energy.has_any()) storeys_ = stated_storeys(document);
     }
     void add(std::size_t i, PipelineResult result) override {
@@ -214,9 +217,10 @@ class Labeller final : public ProducingCommand {
     }
     Product finish() override {
       timings_.measure(Stage::write, [&] {
-        of_.outputs_.make_buildings(input_, document_, std::move(output_), product_);
-        if (std::string& text = product_[OutputPart::buildings];
-            !of_.arguments_.energy.extension.empty() && !text.empty())
+        LabelOutputs::finish(record_, product_);
+        if (of_.arguments_.energy.extension.empty()) return;
+        product_.flatten();
+        if (std::string& text = product_[OutputPart::buildings]; !text.empty())
           text = with_energy_extension(text, energy_);
       });
       return std::move(product_);
@@ -227,15 +231,16 @@ class Labeller final : public ProducingCommand {
       const LabelOutputs& outputs = of_.outputs_;
       if (of_.arguments_.energy.has_any() && !result.is_passed_over)
         measure_energy(building, i, result);
-      if (outputs.has_buildings() && result.has_surfaces()) {
+      if (record_ && result.has_surfaces()) {
         LabelledBuilding& labelled =
-            output_.buildings.emplace_back(outputs.annotated(building, result));
+            record_->output.buildings.emplace_back(outputs.annotated(building, result));
         if (of_.arguments_.is_repaired && result.is_done())
           put_on_solid(document_, building, result, labelled, product_.issues);
+        record_->take();
       }
       if (!result.is_done()) return;
       outputs.make_features(building, result, product_);
-      outputs.add_attributes(building, result, output_);
+      if (record_) outputs.add_attributes(building, result, record_->output);
       if (!outputs.has_any() && !of_.tables_.has_any())
         product_[OutputPart::listing] += listing(building, result);
     }
@@ -249,12 +254,11 @@ class Labeller final : public ProducingCommand {
     }
 
     const Labeller& of_;
-    std::size_t input_;
     const Document& document_;
     Timings& timings_;
     std::vector<std::optional<int>> storeys_;
     std::vector<BuildingEnergy> energy_;  ///< for the extension
-    OutputRecord output_{{}, of_.arguments_.write_options()};
+    std::shared_ptr<RecordText> record_;  ///< null: no buildings are written
     Product product_;
   };
 

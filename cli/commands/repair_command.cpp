@@ -82,7 +82,7 @@ class Repairer final : public ProducingCommand {
     return std::make_unique<Maker>(*this, input, document, timings);
   }
   void take(const Document& document, Product product) override {
-    sink_.take(document, product.labelled, product[OutputPart::buildings]);
+    sink_.take(document, product);
     if (!runner_.is_last_run()) return;
     if (report_) report_->append(product[OutputPart::changes]);
     std::istringstream lines(product[OutputPart::listing]);
@@ -109,16 +109,15 @@ class Repairer final : public ProducingCommand {
   class Maker final : public ProductMaker {
    public:
     Maker(const Repairer& of, std::size_t input, const Document& document, Timings& timings)
-        : of_(of), input_(input), document_(document), timings_(timings) {}
+        : of_(of),
+          document_(document),
+          timings_(timings),
+          record_(of.sink_.record(input, document)) {}
     void add(std::size_t i, PipelineResult result) override {
       timings_.measure(Stage::write, [&] { add(document_.buildings[i], std::move(result)); });
     }
     Product finish() override {
-      timings_.measure(Stage::write, [&] {
-        product_[OutputPart::buildings] =
-            of_.sink_.text(input_, document_, solids_, product_.issues);
-        if (of_.sink_.is_gathering(input_)) product_.labelled = std::move(solids_.buildings);
-      });
+      timings_.measure(Stage::write, [&] { OutputSink::finish(record_, product_); });
       return std::move(product_);
     }
 
@@ -135,14 +134,14 @@ class Repairer final : public ProducingCommand {
       if (!of_.arguments_.report.empty())
         product_[OutputPart::changes] +=
             repair_json(building, one.solid.has_value(), one.report, one.issues);
-      if (one.solid) solids_.buildings.push_back(std::move(one.output));
+      if (one.solid) record_->output.buildings.push_back(std::move(one.output));
+      record_->take();
     }
 
     const Repairer& of_;
-    std::size_t input_;
     const Document& document_;
     Timings& timings_;
-    OutputRecord solids_;
+    std::shared_ptr<RecordText> record_;
     Product product_;
   };
 

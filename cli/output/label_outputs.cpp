@@ -115,12 +115,14 @@ std::string LabelOutputs::recipe() const {
                      arguments_.ignores_semantics, arguments_.closes_installations);
 }
 
-void LabelOutputs::make_buildings(std::size_t input, const Document& document, OutputRecord output,
-                                  Product& product) const {
-  if (!sink_) return;
-  output.options.closes_installations = arguments_.closes_installations;
-  product[OutputPart::buildings] = sink_->text(input, document, output, product.issues);
-  if (sink_->is_gathering(input)) product.labelled = std::move(output.buildings);
+std::shared_ptr<RecordText> LabelOutputs::record(std::size_t input, const Document& document,
+                                                 WriteOptions options) const {
+  options.closes_installations = arguments_.closes_installations;
+  return sink_ ? sink_->record(input, document, std::move(options)) : nullptr;
+}
+
+void LabelOutputs::finish(std::shared_ptr<RecordText> record, Product& product) {
+  if (record) OutputSink::finish(std::move(record), product);
 }
 
 void LabelOutputs::make_features(const Building& building, const PipelineResult& line,
@@ -142,7 +144,7 @@ void LabelOutputs::add_attributes(const Building& building, const PipelineResult
 }
 
 void LabelOutputs::take(const Document& document, const Product& product) {
-  if (sink_) sink_->take(document, product.labelled, product[OutputPart::buildings]);
+  if (sink_) sink_->take(document, product);
   if (features_) features_->append(product[OutputPart::features]);
   print_out(product[OutputPart::listing]);
 }

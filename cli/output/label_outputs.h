@@ -86,10 +86,12 @@ class LabelOutputs {
   /// What a product depends on besides source, configuration and rules; empty if products are no
   /// stretches of the outputs' bytes.
   [[nodiscard]] std::string recipe() const;
-  /// Adds to `product` what the labelled buildings of a record, and the features of a building,
-  /// become in the outputs. Several threads may call them.
-  void make_buildings(std::size_t input, const Document& document, OutputRecord output,
-                      Product& product) const;
+  /// A record on its way into the file of buildings; null without such a file. Several threads may
+  /// call this and what follows.
+  [[nodiscard]] std::shared_ptr<RecordText> record(std::size_t input, const Document& document,
+                                                   WriteOptions options = {}) const;
+  /// Adds to `product` what a record, which may be null, or the features of a building become.
+  static void finish(std::shared_ptr<RecordText> record, Product& product);
   void make_features(const Building& building, const PipelineResult& line, Product& product) const;
   /// Adds the attributes of a building's features to a record, where the outputs have them.
   void add_attributes(const Building& building, const PipelineResult& line,

@@ -1,6 +1,8 @@
 #include "cli/output/output_sink.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include <CLI/CLI.hpp>
@@ -178,18 +180,37 @@ void OutputSink::begin(std::size_t input, bool is_rehearsal) {
   file_ = std::make_unique<RecordFile>(path_, format_of_output(input), solids_);
 }
 
-std::string OutputSink::text(std::size_t input, const Document& document,
-                             const OutputRecord& output, std::vector<Issue>& issues) const {
-  return RecordFile::text(format_of_output(input), document, output, issues);
+std::shared_ptr<RecordText> OutputSink::record(std::size_t input, const Document& document,
+                                               WriteOptions options) const {
+  return std::make_shared<RecordText>(format_of_output(input), document, std::move(options));
 }
 
-void OutputSink::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
-                      const std::string& text) {
-  file_->take(document, labelled, text);
+void OutputSink::finish(std::shared_ptr<RecordText> record, Product& product) {
+  if (record->is_file()) {
+    record->finish();
+    product.file = std::move(record);
+    return;
+  }
+  product[OutputPart::buildings] = record->text(product.issues);
+  product.labelled = std::move(record->output.buildings);
 }
 
-void OutputSink::add(const Document& document, const OutputRecord& output) {
-  take(document, output.buildings, text(input_, document, output, issues_));
+void OutputSink::take(const Document& document, const Product& product) {
+  if (product.file)
+    file_->take(document, *product.file);
+  else
+    file_->take(document, product.labelled, product[OutputPart::buildings]);
+}
+
+void OutputSink::add(const Document& document, OutputRecord output) {
+  auto one = record(input_, document, output.options);
+  one->output.buildings = std::move(output.buildings);
+  one->output.features = std::move(output.features);
+  one->take();
+  Product product;
+  finish(std::move(one), product);
+  take(document, product);
+  std::ranges::move(product.issues, std::back_inserter(issues_));
 }
 
 PartPlace OutputSink::place() const { return {path_, file_ ? file_->size() : 0}; }

@@ -39,20 +39,20 @@ class OutputSink {
   [[nodiscard]] PartPlace place() const;
   /// With `is_rehearsal` the bytes go to nowhere.
   void begin(std::size_t input, bool is_rehearsal);
-  /// What a record of an input adds, as bytes; empty for formats that are written when all records
-  /// are there. `issues` gets what is found. Several threads may call it.
-  [[nodiscard]] std::string text(std::size_t input, const Document& document,
-                                 const OutputRecord& output, std::vector<Issue>& issues) const;
+  /// A record of an input on its way into its file. Several threads may call it.
+  [[nodiscard]] std::shared_ptr<RecordText> record(std::size_t input, const Document& document,
+                                                   WriteOptions options = {}) const;
+  /// Puts what became of it into a product.
+  static void finish(std::shared_ptr<RecordText> record, Product& product);
   /// All files are CityGML.
   [[nodiscard]] bool is_citygml() const;
   /// All files are CityJSON or CityJSONSeq, and made of such files.
   [[nodiscard]] bool is_cityjson() const;
-  /// Such formats: `add` needs the buildings.
+  /// Files of such formats are made when all records are there.
   [[nodiscard]] bool is_gathering(std::size_t input) const;
-  /// Puts a record of the input at hand into its place, whose `text` it was.
-  void take(const Document& document, const std::vector<LabelledBuilding>& labelled,
-            const std::string& text);
-  void add(const Document& document, const OutputRecord& output);
+  /// Puts a record of the input at hand into its place.
+  void take(const Document& document, const Product& product);
+  void add(const Document& document, OutputRecord output);
   /// Puts the file in its place and returns its path.
   std::string end();
   /// What was found in the files that are in their place, and is no longer here then.

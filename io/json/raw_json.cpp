@@ -109,27 +109,37 @@ std::size_t RawNode::text_size() const {
   return size;
 }
 
-void RawNode::append_text(std::string& out) const {
-  out.reserve(out.size() + text_size());
-  out += close_ == '}' ? '{' : '[';
+template <class Append>
+void RawNode::visit_pieces(const Append& append) const {
+  append(close_ == '}' ? "{" : "[");
   bool is_first = true;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
     if (slot.is_erased) continue;
-    if (!std::exchange(is_first, false)) out += ',';
+    if (!std::exchange(is_first, false)) append(",");
     if (!slot.added_key.empty()) {
-      append_json(out, std::string_view(slot.added_key));
-      out += ':';
+      std::string key;
+      append_json(key, std::string_view(slot.added_key));
+      append(key += ':');
     }
-    out += slot.before;
+    append(slot.before);
     if (slot.node)
-      slot.node->append_text(out);
+      slot.node->visit_pieces(append);
     else
-      out += value(i);
-    out += slot.after;
+      append(value(i));
+    append(slot.after);
   }
-  if (slots_.empty()) out += inside_;
-  out += close_;
+  if (slots_.empty()) append(inside_);
+  append(std::string_view(&close_, 1));
+}
+
+void RawNode::append_text(std::string& out) const {
+  out.reserve(out.size() + text_size());
+  visit_pieces([&](std::string_view piece) { out += piece; });
+}
+
+void RawNode::write(const std::function<void(std::string_view)>& sink) const {
+  visit_pieces([&](std::string_view piece) { sink(piece); });
 }
 
 void for_each_element(std::string_view text, const std::function<void(std::string_view)>& visit) {

@@ -58,6 +58,8 @@ class RawNode {
   [[nodiscard]] std::string text() const;
   /// Appends it.
   void append_text(std::string& out) const;
+  /// Gives it piece by piece.
+  void write(const std::function<void(std::string_view)>& sink) const;
 
  private:
   /// One member: `before` is white space, key and colon, `after` white space up to the comma.
@@ -75,6 +77,8 @@ class RawNode {
   };
   /// At least as many bytes as text() has, but for what is escaped in keys that were added.
   [[nodiscard]] std::size_t text_size() const;
+  template <class Append>
+  void visit_pieces(const Append& append) const;
 
   std::vector<Slot> slots_;
   /// White space of an empty container, else nothing.

@@ -103,24 +103,56 @@ RecordFile::RecordFile(std::string path, Format format, StlSolids solids)
 
 RecordFile::~RecordFile() = default;
 
-std::string RecordFile::text(Format format, const Document& document, const OutputRecord& output,
-                             std::vector<Issue>& issues) {
-  if (is_mesh(format)) return {};
-  std::string text = write(document, output);
-  if (is_written_citygml(format))
-    return citygml_text(text, document, format, output.options.closes_installations, issues);
-  if (format == Format::gpkg) return gpkg_rows(text, document, output.features);
+RecordText::RecordText(Format format, const Document& document, WriteOptions options)
+    : output{{}, std::move(options)},
+      format_(format),
+      document_(document),
+      text_(document, output.options) {}
+
+void RecordText::take() {
+  if (is_mesh(format_)) return;
+  for (const LabelledBuilding& building : output.buildings) add(building);
+  output.buildings.clear();
+}
+
+void RecordText::add(const LabelledBuilding& building) {
+  ++buildings_;
+  if (!is_mesh(format_)) text_.add(building);
+}
+
+std::string RecordText::text(std::vector<Issue>& issues) {
+  if (is_mesh(format_)) return {};
+  std::string text = text_.text();
+  log("oriel").debug("written: record={} buildings={} bytes={}", document_.name, buildings_,
+                     text.size());
+  if (is_written_citygml(format_))
+    return citygml_text(text, document_, format_, output.options.closes_installations, issues);
+  if (format_ == Format::gpkg) return gpkg_rows(text, document_, output.features);
   return text;
 }
 
-void RecordFile::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
-                      const std::string& text) {
+bool RecordText::is_file() const {
+  return format_ == Format::cityjson && document_.format == Format::cityjson;
+}
+
+std::string RecordFile::note_crs(const Document& document) {
   std::string crs;
   for (const Building& building : document.buildings) {
     has_buildings_ = true;
     if (crs.empty()) crs = building.frame.crs;
   }
   has_crs_ |= !crs.empty();
+  return crs;
+}
+
+void RecordFile::take(const Document& document, RecordText& record) {
+  note_crs(document);
+  record.write([&](std::string_view piece) { file_.append(piece); });
+}
+
+void RecordFile::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                      const std::string& text) {
+  const std::string crs = note_crs(document);
   if (is_mesh(format_))
     append_mesh(mesh_, document, labelled);
   else if (gpkg_)
@@ -149,9 +181,12 @@ std::vector<Issue> write(const std::string& path, std::span<const Document> docu
   const Format format = checked_format(path, documents, to);
   RecordFile file(path, format, solids);
   std::vector<Issue> issues;
-  for (std::size_t i = 0; i < documents.size(); ++i)
-    file.take(documents[i], outputs[i].buildings,
-              RecordFile::text(format, documents[i], outputs[i], issues));
+  for (std::size_t i = 0; i < documents.size(); ++i) {
+    RecordText record(format, documents[i], outputs[i].options);
+    record.output.features = outputs[i].features;
+    for (const LabelledBuilding& building : outputs[i].buildings) record.add(building);
+    file.take(documents[i], outputs[i].buildings, record.text(issues));
+  }
   for (Issue& issue : file.commit()) issues.push_back(std::move(issue));
   return issues;
 }

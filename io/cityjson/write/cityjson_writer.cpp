@@ -91,69 +91,30 @@ std::vector<std::string_view> arrays_of(const CityJsonSource& source) {
   return arrays;
 }
 
-class CityJsonWriter {
+}  // namespace
+
+class CityJsonText::State {
  public:
-  CityJsonWriter(const CityJsonSource& source, const Document& document,
-                 const WriteOptions& options)
-      : existing_(options.existing),
-        gone_(options.gone.begin(), options.gone.end()),
-        bared_(options.bared),
+  State(std::shared_ptr<const CityJsonSource> source, const Document& document,
+        const WriteOptions& options)
+      : options_(options),
         emptied_(options.emptied.begin(), options.emptied.end()),
-        least_digits_(options.finer_digits),
-        source_(source),
+        source_owner_(std::move(source)),
+        source_(*source_owner_),
         document_(document),
-        arrays_(arrays_of(source)),
-        root_(root_of(source.text), arrays_),
+        arrays_(arrays_of(source_)),
+        root_(root_of(source_.text), arrays_),
         objects_(root_.value_of("CityObjects"), arrays_) {
     for (std::size_t i = 0; i < document.buildings.size(); ++i)
       building_of_.try_emplace(document.buildings[i].id, i);
-  }
-
-  std::string write(const std::vector<LabelledBuilding>& labelled,
-                    const std::vector<std::string>& removed) {
-    make_pool(labelled);
-    for (const LabelledBuilding& building : labelled) relabel(building);
-    std::unordered_set<std::string> leaving = without_relatives();
-    leaving.insert(removed.begin(), removed.end());
-    leaving.insert(outdated_.begin(), outdated_.end());
-    if (!leaving.empty()) remove(leaving);
-    if (!gone_.empty() && source_.is_feature && has_nothing()) return {};
-    if (pool_) exchange_vertices();
-    root_.set("CityObjects", std::move(objects_));
-    const std::string_view text = source_.text;
-    const std::string_view root = root_of(text);
-    const auto start = static_cast<std::size_t>(root.data() - text.data());
-    std::string result;
-    result += text.substr(0, start);
-    root_.append_text(result);
-    result += text.substr(start + root.size());
-    if (document_.format == Format::cityjson_seq || document_.format == Format::citygml)
-      result += '\n';
-    return result;
-  }
-
- private:
-  [[nodiscard]] std::size_t building_index(const std::string& id) const {
-    const auto found = building_of_.find(id);
-    if (found == building_of_.end())
-      throw std::logic_error("no building '" + id + "' in " + document_.name);
-    return found->second;
-  }
-
-  /// Starts the exchange of vertices if a geometry is replaced.
-  void make_pool(const std::vector<LabelledBuilding>& labelled) {
-    if (emptied_.empty() &&
-        std::ranges::none_of(labelled, [](const auto& one) { return one.geometry.has_value(); }))
-      return;
-    if (!source_.is_feature)
-      digits_ = std::max(least_digits_, detail::finer_digits(source_.transform));
-    pool_.emplace(root_.value_of("vertices"), source_.transform, digits_);
+    if (!emptied_.empty()) make_pool();
   }
 
   void relabel(const LabelledBuilding& labelled) {
     const std::size_t index = building_index(labelled.building);
     const GeometryPlace place = source_.places[index];
     if (emptied_.contains(labelled.building)) return empty(place, labelled);
+    if (labelled.geometry) make_pool();
     RawNode object(objects_.value(place.object), arrays_);
     RawNode geometries(object.value_of("geometry"), arrays_);
     const bool is_emptied = place.geometry == kNoGeometry;
@@ -191,6 +152,50 @@ class CityJsonWriter {
     objects_.set(place.object, object.text());
     for (std::size_t i = 0; i < installations.size(); ++i)
       put_object(labelled.installations[i].id, std::move(installations[i]));
+  }
+
+  void finish() {
+    if (std::exchange(is_finished_, true)) return;
+    gone_.insert(options_.gone.begin(), options_.gone.end());
+    std::unordered_set<std::string> leaving = without_relatives();
+    leaving.insert(options_.removed.begin(), options_.removed.end());
+    leaving.insert(outdated_.begin(), outdated_.end());
+    if (!leaving.empty()) remove(leaving);
+    is_nothing_ = !gone_.empty() && source_.is_feature && has_nothing();
+    if (is_nothing_) return;
+    if (pool_) exchange_vertices();
+    root_.set("CityObjects", std::move(objects_));
+  }
+
+  /// Nothing is to be written.
+  [[nodiscard]] bool is_nothing() const { return is_nothing_; }
+
+  [[nodiscard]] const RawNode& root() const { return root_; }
+  /// What stands before and behind the root.
+  [[nodiscard]] std::string_view head() const {
+    const std::string_view text = source_.text;
+    return text.substr(0, text.find('{'));
+  }
+  [[nodiscard]] std::string tail() const {
+    const bool is_line =
+        document_.format == Format::cityjson_seq || document_.format == Format::citygml;
+    return source_.text.substr(source_.text.rfind('}') + 1) + (is_line ? "\n" : "");
+  }
+
+ private:
+  [[nodiscard]] std::size_t building_index(const std::string& id) const {
+    const auto found = building_of_.find(id);
+    if (found == building_of_.end())
+      throw std::logic_error("no building '" + id + "' in " + document_.name);
+    return found->second;
+  }
+
+  /// Starts the exchange of vertices if a geometry is replaced.
+  void make_pool() {
+    if (pool_) return;
+    if (!source_.is_feature)
+      digits_ = std::max(options_.finer_digits, detail::finer_digits(source_.transform));
+    pool_.emplace(root_.value_of("vertices"), source_.transform, digits_);
   }
 
   void empty(GeometryPlace place, const LabelledBuilding& labelled) {
@@ -317,13 +322,13 @@ class CityJsonWriter {
                                                  !labelled.installations.empty());
     const std::string_view there = geometry.value_of("semantics");
     const std::string_view existing =
-        existing_ == ExistingSemantics::replace ? std::string_view() : there;
+        options_.existing == ExistingSemantics::replace ? std::string_view() : there;
     const std::size_t size = labelled.surface_of_polygon.size();
     const std::span<const int> wanted =
         std::span(labelled.surface_of_polygon)
             .subspan(std::min(range.first, size), range.size_within(size));
     std::string semantics = detail::filled_semantics(existing, shape, wanted, labelled.surfaces,
-                                                     existing_ == ExistingSemantics::keep);
+                                                     options_.existing == ExistingSemantics::keep);
     if (semantics != there) geometry.set("semantics", std::move(semantics));
     return std::move(polygons);
   }
@@ -496,10 +501,11 @@ class CityJsonWriter {
   /// and what is no building that was read, an outline at most, and keeps none of its children.
   [[nodiscard]] std::unordered_set<std::string> without_relatives() const {
     std::unordered_set<std::string> ids = gone_;
-    if (gone_.empty() && bared_.empty()) return ids;
+    if (gone_.empty() && options_.bared.empty()) return ids;
     for (std::size_t i = 0; i < objects_.size(); ++i) {
       if (!RawNode::is_object(objects_.value(i))) continue;
-      const bool is_bared = std::ranges::find(bared_, objects_.key(i)) != bared_.end();
+      const bool is_bared =
+          std::ranges::find(options_.bared, objects_.key(i)) != options_.bared.end();
       if (is_bared || gone_.contains(objects_.key(i)))
         add_installations_of(RawNode(objects_.value(i), arrays_), ids);
     }
@@ -524,6 +530,7 @@ class CityJsonWriter {
     for (std::size_t i = 0; i < objects_.size(); ++i)
       objects_.set(i, pool_->renumbered(objects_.value(i)));
     root_.set("vertices", pool_->text());
+    pool_.reset();
     if (digits_ == 0) return;
     const Vec3 scale = source_.transform.scale;
     std::string text;
@@ -535,13 +542,13 @@ class CityJsonWriter {
     root_.set("transform", transform.text());
   }
 
-  ExistingSemantics existing_;
+  const WriteOptions& options_;
+  bool is_finished_ = false, is_nothing_ = false;
   std::unordered_set<std::string> gone_;
-  const std::vector<std::string>& bared_;
   std::unordered_set<std::string> emptied_;
   /// Installations of solids that were replaced.
   std::unordered_set<std::string> outdated_;
-  int least_digits_ = 0;
+  std::shared_ptr<const CityJsonSource> source_owner_;
   const CityJsonSource& source_;
   const Document& document_;
   /// Slices of the source's text that are long, for RawNode.
@@ -561,15 +568,47 @@ class CityJsonWriter {
   int digits_ = 0;
 };
 
-}  // namespace
+CityJsonText::CityJsonText(const Document& document, const WriteOptions& options) {
+  auto source = document.source;
+  if (!source && document.format == Format::citygml) return;
+  if (!source)
+    source = std::make_shared<const CityJsonSource>(detail::fresh_cityjson(document.buildings));
+  state_ = std::make_unique<State>(std::move(source), document, options);
+}
+
+CityJsonText::~CityJsonText() = default;
+CityJsonText::CityJsonText(CityJsonText&&) noexcept = default;
+CityJsonText& CityJsonText::operator=(CityJsonText&&) noexcept = default;
+
+void CityJsonText::add(const LabelledBuilding& labelled) {
+  if (state_) state_->relabel(labelled);
+}
+
+void CityJsonText::finish() {
+  if (state_) state_->finish();
+}
+
+std::string CityJsonText::text() {
+  finish();
+  if (!state_ || state_->is_nothing()) return {};
+  std::string text(state_->head());
+  state_->root().append_text(text);
+  return text += state_->tail();
+}
+
+void CityJsonText::write(const std::function<void(std::string_view)>& sink) {
+  finish();
+  if (!state_ || state_->is_nothing()) return;
+  sink(state_->head());
+  state_->root().write(sink);
+  sink(state_->tail());
+}
 
 std::string write_cityjson(const Document& document, const std::vector<LabelledBuilding>& labelled,
                            const WriteOptions& options) {
-  if (!document.source && document.format == Format::citygml) return {};
-  if (document.source)
-    return CityJsonWriter(*document.source, document, options).write(labelled, options.removed);
-  const CityJsonSource fresh = detail::fresh_cityjson(document.buildings);
-  return CityJsonWriter(fresh, document, options).write(labelled, options.removed);
+  CityJsonText text(document, options);
+  for (const LabelledBuilding& building : labelled) text.add(building);
+  return text.text();
 }
 
 }  // namespace oriel

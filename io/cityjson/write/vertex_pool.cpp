@@ -5,6 +5,7 @@
 #include "kernel/base/text/json_text.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -98,34 +99,59 @@ int finer_digits(const Transform& transform) {
   return digits;
 }
 
-std::size_t FileVertices::KeyHash::operator()(const Key& key) const noexcept {
+FileVertices::FileVertices(std::string_view vertices, const Transform& transform, int digits)
+    : transform_(finer(transform, digits)), digits_(digits) {
+  for_each_element(vertices, [&](std::string_view vertex) { there_.push_back(vertex); });
+  slots_.assign(std::bit_ceil(2 * there_.size() + 2), -1);
+  for (std::size_t i = 0; i < there_.size(); ++i)
+    if (const auto key = key_at(i)) enter(static_cast<int>(i), *key);
+  is_used_.resize(there_.size());
+}
+
+std::string FileVertices::text_of(std::size_t number) const {
+  if (number < there_.size()) return vertex_text(there_[number], digits_);
+  std::string text;
+  append_json_array(text, added_[number - there_.size()]);
+  return text;
+}
+
+std::optional<FileVertices::Key> FileVertices::key_at(std::size_t number) const {
+  if (number >= there_.size()) return added_[number - there_.size()];
+  return digits_ == 0 ? key_of(there_[number]) : key_of(text_of(number));
+}
+
+/// Where the vertex with this key is, or would be.
+std::size_t FileVertices::slot_of(const Key& key) const {
   std::uint64_t hash = 0;
   for (const std::int64_t value : key)
     hash = (hash ^ static_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15ULL;
-  return hash ^ (hash >> 32U);
+  std::size_t slot = (hash ^ (hash >> 32U)) & (slots_.size() - 1);
+  const auto is_other = [&](int number) { return key_at(static_cast<std::size_t>(number)) != key; };
+  while (slots_[slot] >= 0 && is_other(slots_[slot])) slot = (slot + 1) & (slots_.size() - 1);
+  return slot;
 }
 
-FileVertices::FileVertices(std::string_view vertices, const Transform& transform, int digits)
-    : transform_(finer(transform, digits)) {
-  for_each_element(vertices, [&](std::string_view vertex) {
-    texts_.push_back(vertex_text(vertex, digits));
-    if (const auto key = key_of(texts_.back()))
-      number_of_.try_emplace(*key, static_cast<int>(texts_.size()) - 1);
-  });
-  is_used_.resize(texts_.size());
+/// The first vertex with a key stands for all.
+void FileVertices::enter(int number, const Key& key) {
+  int& slot = slots_[slot_of(key)];
+  if (slot >= 0) return;
+  slot = number;
+  if (2 * ++taken_ <= slots_.size()) return;
+  const std::vector<int> old = std::exchange(slots_, std::vector<int>(2 * slots_.size(), -1));
+  for (const int there : old)
+    if (there >= 0) slots_[slot_of(*key_at(static_cast<std::size_t>(there)))] = there;
 }
 
 std::vector<int> FileVertices::add(const PlacedSolid& placed) {
   std::vector<int> numbers;
   for (const Vertex& vertex : placed.solid->vertices) {
     const Key key = rounded(vertex.point, *placed.frame, transform_);
-    const auto [found, is_new] = number_of_.try_emplace(key, static_cast<int>(texts_.size()));
-    if (is_new) {
-      texts_.emplace_back();
-      append_json_array(texts_.back(), key);
-      is_used_.push_back(false);
-    }
-    numbers.push_back(found->second);
+    numbers.push_back(slots_[slot_of(key)]);
+    if (numbers.back() >= 0) continue;
+    numbers.back() = static_cast<int>(is_used_.size());
+    added_.push_back(key);
+    is_used_.push_back(false);
+    enter(numbers.back(), key);
   }
   return numbers;
 }
@@ -139,9 +165,10 @@ void FileVertices::mark_used(std::string_view object) {
 }
 
 void FileVertices::renumber() {
-  new_number_.assign(texts_.size(), -1);
+  slots_ = {};
+  new_number_.assign(is_used_.size(), -1);
   int next = 0;
-  for (std::size_t i = 0; i < texts_.size(); ++i)
+  for (std::size_t i = 0; i < is_used_.size(); ++i)
     if (is_used_[i]) new_number_[i] = next++;
 }
 
@@ -154,10 +181,10 @@ std::string FileVertices::renumbered(std::string_view object) const {
 
 std::string FileVertices::text() const {
   std::string text = "[";
-  for (std::size_t i = 0; i < texts_.size(); ++i) {
+  for (std::size_t i = 0; i < is_used_.size(); ++i) {
     if (!is_used_[i]) continue;
     if (text.size() > 1) text += ',';
-    text += texts_[i];
+    text += text_of(i);
   }
   return text + "]";
 }

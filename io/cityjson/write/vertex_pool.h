@@ -6,9 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace oriel::detail {
@@ -56,13 +56,19 @@ class FileVertices {
 
  private:
   using Key = std::array<std::int64_t, 3>;
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const noexcept;
-  };
+  [[nodiscard]] std::string text_of(std::size_t number) const;
+  [[nodiscard]] std::optional<Key> key_at(std::size_t number) const;
+  [[nodiscard]] std::size_t slot_of(const Key& key) const;
+  void enter(int number, const Key& key);
 
   Transform transform_;
-  std::vector<std::string> texts_;
-  std::unordered_map<Key, int, KeyHash> number_of_;
+  int digits_;
+  /// The file's vertices, then those that were added.
+  std::vector<std::string_view> there_;
+  std::vector<Key> added_;
+  /// Numbers of vertices by a hash of their integers, at a load of at most one half; -1: none.
+  std::vector<int> slots_;
+  std::size_t taken_ = 0;
   std::vector<bool> is_used_;
   std::vector<int> new_number_;
 };
