@@ -45,6 +45,12 @@ cmp -s label.city.jsonl two.city.jsonl || { echo "-j 2 writes other bytes"; exit
 say "\`label -j 2\`, times as fast as \`-j 1\`" "$(calc %.2f "$one_elapsed_s / $elapsed_s") ($elapsed_s s elapsed, $core_s s of the cores)"
 rm two.city.jsonl label.city.jsonl
 
+# The same city as one record.
+"$oriel" collect city.city.jsonl -o city.city.json
+"$oriel" label city.city.json -o label.city.json --status file 2>/dev/null || [ $? -eq 3 ]
+say "peak memory, one CityJSON file, times its bytes" "$(calc %.1f "$(of_status file peak_memory_bytes) / $(stat -c %s city.city.json)")"
+rm city.city.json label.city.json
+
 "$generate" -o lod2.city.jsonl --seed 5 --count "$houses" --features wing >/dev/null
 run "$oriel" label lod2.city.jsonl -o lod2.out.city.jsonl
 say "\`label\` of LoD2-like houses (walls, roofs, wings), houses/s of a core" "$(calc %.0f "$houses / $core_s")"

@@ -81,6 +81,8 @@ class ProducingCommand : public BatchCommand {
   [[nodiscard]] virtual std::unique_ptr<ProductMaker> maker(std::size_t input,
                                                             const Document& document,
                                                             Timings& timings) const = 0;
+  /// Polygons of a building are asked for after it was added: by those after it, or by `take`.
+  [[nodiscard]] virtual bool needs_polygons() const { return true; }
   /// Puts a product into the outputs.
   virtual void take(const Document& document, Product product) = 0;
   /// The outputs as they are.

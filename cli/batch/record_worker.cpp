@@ -46,7 +46,7 @@ PipelineResult RecordWorker::result_of(WorkItem& item, std::size_t i) const {
 
 void RecordWorker::work_on(WorkItem& item) const {
   if (!item.needs_work()) return;
-  const std::size_t count = item.record()->document.value->buildings.size();
+  std::vector<Building>& buildings = item.record()->document.value->buildings;
   std::unique_ptr<ProductMaker> maker;
   std::optional<Issue> fault;
   const auto guarded = [&](const auto& step) {
@@ -60,7 +60,7 @@ void RecordWorker::work_on(WorkItem& item) const {
     }
   };
   if (producer_ != nullptr) guarded([&] { maker = maker_of(item); });
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < buildings.size(); ++i) {
     now_at_building(i);
     PipelineResult result = result_of(item, i);
     now_at_building(i);
@@ -68,6 +68,10 @@ void RecordWorker::work_on(WorkItem& item) const {
       item.results.push_back(std::move(result));
     else
       guarded([&] { maker->add(i, std::move(result)); });
+    if (producer_ != nullptr && !producer_->needs_polygons()) {
+      buildings[i].polygons = {};
+      buildings[i].vertices = {};
+    }
   }
   now_at_building(kNoBuilding);
   drop_unselected(item);

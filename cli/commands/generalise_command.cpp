@@ -184,7 +184,7 @@ class Generaliser final : public ProducingCommand {
         relatives_.options.gone = record_->output.options.gone;
         std::ranges::move(overlaps_as_written(document_, relatives_),
                           std::back_inserter(product_.issues));
-        LabelOutputs::finish(record_, product_);
+        OutputSink::finish(record_, product_);
       });
       return std::move(product_);
     }

@@ -145,6 +145,7 @@ class Labeller final : public ProducingCommand {
                                       Timings& timings) const override {
     return std::make_unique<Maker>(*this, input, document, timings);
   }
+  [[nodiscard]] bool needs_polygons() const override { return outputs_.gathers_any(); }
   void take(const Document& document, Product product) override {
     if (!runner_.is_last_run()) product[OutputPart::listing].clear();
     if (arguments_.corrections)
@@ -217,7 +218,7 @@ class Labeller final : public ProducingCommand {
     }
     Product finish() override {
       timings_.measure(Stage::write, [&] {
-        LabelOutputs::finish(record_, product_);
+        if (record_) OutputSink::finish(record_, product_);
         if (of_.arguments_.energy.extension.empty()) return;
         product_.flatten();
         if (std::string& text = product_[OutputPart::buildings]; !text.empty())

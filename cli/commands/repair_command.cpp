@@ -81,6 +81,7 @@ class Repairer final : public ProducingCommand {
                                       Timings& timings) const override {
     return std::make_unique<Maker>(*this, input, document, timings);
   }
+  [[nodiscard]] bool needs_polygons() const override { return sink_.gathers_any(); }
   void take(const Document& document, Product product) override {
     sink_.take(document, product);
     if (!runner_.is_last_run()) return;

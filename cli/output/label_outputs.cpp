@@ -121,10 +121,6 @@ std::shared_ptr<RecordText> LabelOutputs::record(std::size_t input, const Docume
   return sink_ ? sink_->record(input, document, std::move(options)) : nullptr;
 }
 
-void LabelOutputs::finish(std::shared_ptr<RecordText> record, Product& product) {
-  if (record) OutputSink::finish(std::move(record), product);
-}
-
 void LabelOutputs::make_features(const Building& building, const PipelineResult& line,
                                  Product& product) const {
   if (arguments_.features.empty()) return;

@@ -90,8 +90,7 @@ class LabelOutputs {
   /// call this and what follows.
   [[nodiscard]] std::shared_ptr<RecordText> record(std::size_t input, const Document& document,
                                                    WriteOptions options = {}) const;
-  /// Adds to `product` what a record, which may be null, or the features of a building become.
-  static void finish(std::shared_ptr<RecordText> record, Product& product);
+  /// Adds to `product` what the features of a building become.
   void make_features(const Building& building, const PipelineResult& line, Product& product) const;
   /// Adds the attributes of a building's features to a record, where the outputs have them.
   void add_attributes(const Building& building, const PipelineResult& line,

@@ -3,8 +3,10 @@
 #include "io/json/text.h"
 #include "kernel/base/issue.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -66,6 +68,8 @@ std::string_view Input::read_some() {
 
 std::string Input::read_all() {
   std::string text;
+  if (struct stat status{}; ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode))
+    text.reserve(std::min(static_cast<std::size_t>(status.st_size), kMaxBytes) + kPadding);
   do {
     text.append(buffer_, at_);
     if (hash_) hash_->add(std::string_view(buffer_).substr(at_));

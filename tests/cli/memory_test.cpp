@@ -1,15 +1,21 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
+#include "tests/support/shared.h"
 
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <string_view>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 using namespace oriel::test;
 
@@ -20,6 +26,37 @@ int exit_with_memory(const Folder& folder, int kilobytes, const std::string& arg
   const std::string line = fmt::format("ulimit -c 0; ulimit -v {}; '{}' {} >/dev/null 2>'{}'",
                                        kilobytes, ORIEL_COMMAND, arguments, folder / "err");
   return WEXITSTATUS(std::system(line.c_str()));  // NOLINT: a shell sets the limit
+}
+
+/// The most memory that the command had, in kilobytes; what it writes goes into the folder.
+long peak_kilobytes(const Folder& folder, const char* command, const std::string& input) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl(ORIEL_COMMAND, "oriel", command, input.c_str(), "-o",
+            (folder / "out.city.json").c_str(), static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  REQUIRE(::wait4(child, &status, 0, &usage) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 3);  // some are rejected
+  return usage.ru_maxrss;
+}
+
+/// A CityJSON with each object so many times; all of them have the same vertices.
+std::string with_copies(const std::string& text, int copies) {
+  auto file = nlohmann::ordered_json::parse(text);
+  std::string objects;
+  for (const auto& [id, object] : file["CityObjects"].items()) {
+    const std::string member = "\":" + object.dump();
+    for (int i = 0; i < copies; ++i) objects += fmt::format(R"(,"{}_{}{})", id, i, member);
+  }
+  file["CityObjects"] = nullptr;
+  std::string whole = file.dump();
+  const std::string_view place = R"("CityObjects":null)";
+  whole.replace(whole.find(place), place.size(), R"("CityObjects":{)" + objects.substr(1) + '}');
+  return whole;
 }
 
 /// A building as photogrammetry gives it, as CityJSON: a rough roof of 2 `across`² triangles over
@@ -84,6 +121,24 @@ TEST_SUITE("cli") {
         CHECK(err.find("E502 segmenting used up the work budget") != std::string::npos);
         CHECK(err.find("E507") == std::string::npos);
       }
+#endif
+  }
+
+  TEST_CASE("a large file takes memory by its size and not by what is found out about it") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    MESSAGE("skipped: sanitizers take memory of their own");
+#else
+    ORIEL_NEEDS_SHARED(shared);
+    const std::string file = shared / "data/delfshaven/delfshaven.city.json";
+    const Folder folder;
+    // Copies are written before a command begins, whose memory counts from its fork on.
+    const std::string large = folder.write("large.city.json", with_copies(bytes_of(file), 8));
+    constexpr long kBase = 30'000;  // the program and its libraries
+    CHECK(peak_kilobytes(folder, "validate", large) <
+          kBase + 4 * static_cast<long>(std::filesystem::file_size(large) / 1000));
+    // 853 buildings: the result of each is gone when the next is worked on.
+    CHECK(peak_kilobytes(folder, "label", file) <
+          peak_kilobytes(folder, "validate", file) + 20'000);
 #endif
   }
 
