@@ -104,11 +104,7 @@ class Redrawer {
   /// A wall or roof no longer names a feature that was removed from it.
   void forget_gone(SemanticSurface& surface) const {
     if (surface.type == "Window" || surface.type == "Door") return;
-    const auto names_gone = [&](const auto& member) {
-      const auto* id = std::get_if<std::string>(&member.second);
-      return member.first == "oriel_id" && id != nullptr && gone_.contains(*id);
-    };
-    if (std::ranges::any_of(surface.members, names_gone)) surface.members.clear();
+    if (gone_.contains(surface.label->id)) surface.label = {};
   }
 
   /// Surfaces are copied once; polygons of others that went into the same facet have that facet's
@@ -180,7 +176,7 @@ class Redrawer {
         out_.removed_ids.push_back(installation.id);
         continue;
       }
-      Installation kept{installation.id, installation.attributes, {}, {}};
+      Installation kept{installation.id, installation.label, {}, {}};
       const std::set<int> polygons(installation.polygons.begin(), installation.polygons.end());
       for (int f = 0; f < std::ssize(facets()); ++f) {
         const auto heir = heirs.find(f);

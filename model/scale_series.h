@@ -5,6 +5,7 @@
 #include "model/whole_point.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -28,16 +29,16 @@ using MicrometreRing = std::vector<MicrometrePoint>;
 struct LevelFacet {
   /// Inner rings, sorted.
   std::vector<MicrometreRing> holes;
-  /// The semantic surface: its type and members. Facets with the same `oriel_id` are one.
+  /// The semantic surface: its type and label. Facets with the same FeatureLabel::id are one.
   std::string type;
-  Members members;
+  SharedLabel label;
   /// The installations that have it, sorted.
   std::vector<std::string> installations;
   /// The input polygons it is made of; neither compared nor written.
   std::vector<int> polygons;
 
   friend bool operator==(const LevelFacet& a, const LevelFacet& b) {
-    return a.holes == b.holes && a.type == b.type && a.members == b.members &&
+    return a.holes == b.holes && a.type == b.type && a.label == b.label &&
            a.installations == b.installations;
   }
 };
@@ -49,14 +50,23 @@ inline bool is_of_state(std::string_view attribute) {
   return attribute.starts_with("oriel_removed_") || attribute.starts_with("oriel_member");
 }
 
+/// A value as CityJSON writes it: a whole double is an integer.
+inline MemberValue as_written(const MemberValue& value) {
+  constexpr double kLargestExact = 9007199254740992;  // 2^53
+  const auto* number = std::get_if<double>(&value);
+  if (number == nullptr || std::abs(*number) >= kLargestExact || *number != std::floor(*number))
+    return value;
+  return static_cast<std::int64_t>(*number);
+}
+
 /// A building at one level of a series, as its file has it.
 struct LevelState {
   std::string building;
   /// By outer ring, of which no two are the same. None: the building is part of another one's
   /// block.
   std::map<MicrometreRing, LevelFacet> facets;
-  /// The attributes of installations, by id.
-  std::map<std::string, Members> installations;
+  /// The labels of installations, by id.
+  std::map<std::string, SharedLabel> installations;
   /// Those that is_of_state().
   std::map<std::string, MemberValue> attributes;
 
@@ -72,7 +82,7 @@ struct Change {
   std::vector<std::pair<MicrometreRing, LevelFacet>> removed, added;
   std::map<MicrometreRing, Holes> holes;
   /// What there is afterwards; nothing: it is gone.
-  std::map<std::string, std::optional<Members>> installations;
+  std::map<std::string, std::optional<SharedLabel>> installations;
   std::map<std::string, std::optional<MemberValue>> attributes;
 };
 

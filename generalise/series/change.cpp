@@ -26,7 +26,7 @@ auto difference_of_maps(const Map& before, const Map& after) {
 }
 
 bool means_the_same(const LevelFacet& a, const LevelFacet& b) {
-  return a.type == b.type && a.members == b.members && a.installations == b.installations;
+  return a.type == b.type && a.label == b.label && a.installations == b.installations;
 }
 
 void compare(const MicrometreRing& outer, const LevelFacet& before, const LevelFacet& after,

@@ -2,14 +2,11 @@
 
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
-#include "kernel/base/sha256.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace oriel {
 
@@ -27,33 +24,7 @@ MicrometreRing ring_of(const Loop& loop, const std::vector<MicrometrePoint>& pla
   return ring;
 }
 
-Members all_as_written(Members members) {
-  for (auto& [name, value] : members) value = as_written(value);
-  return members;
-}
-
-std::string id_of(const LevelFacet& facet) {
-  for (const auto& [name, value] : facet.members)
-    if (name == "oriel_id")
-      if (const auto* id = std::get_if<std::string>(&value)) return *id;
-  return {};
-}
-
 bool is_opening(const std::string& type) { return type == "Window" || type == "Door"; }
-
-std::string text_of(const Members& members) {
-  std::string text;
-  for (const auto& [name, value] : members)
-    text += fmt::format("{}={};", name,
-                        std::visit([](const auto& v) { return fmt::format("{}", v); }, value));
-  return text;
-}
-
-std::string text_of(const MicrometreRing& ring) {
-  std::string text;
-  for (const MicrometrePoint& p : ring) text += fmt::format("{} {} {},", p[0], p[1], p[2]);
-  return text;
-}
 
 /// Makes the building of a state.
 class Builder {
@@ -65,7 +36,7 @@ class Builder {
     for (const auto& [outer, facet] : state_.facets) add(outer, facet);
     solid_.shells = detail::shells_of(solid_);
     tie_openings();
-    for (const auto& [id, attributes] : state_.installations) add_installation(id, attributes);
+    for (const auto& [id, label] : state_.installations) add_installation(id, label);
     for (const auto& [name, value] : state_.attributes) out_.attributes.emplace_back(name, value);
     if (!state_.facets.empty()) out_.geometry = std::move(solid_);
     return std::move(out_);
@@ -93,7 +64,7 @@ class Builder {
     solid_.planes.push_back(detail::plane_of(solid_.vertices, made.loops[0]));
     solid_.facets.push_back(std::move(made));
     const int number = static_cast<int>(out_.surfaces.size());
-    const std::string id = id_of(facet);
+    const std::string& id = facet.label->id;
     const auto found = id.empty() ? surface_of_id_.end() : surface_of_id_.find(id);
     if (found != surface_of_id_.end() && out_.surfaces[at(found->second)].type == facet.type) {
       out_.surface_of_polygon.push_back(found->second);
@@ -101,7 +72,7 @@ class Builder {
     }
     if (!id.empty()) surface_of_id_.emplace(id, number);
     out_.surface_of_polygon.push_back(facet.type.empty() ? -1 : number);
-    if (!facet.type.empty()) out_.surfaces.push_back({facet.type, -1, facet.members});
+    if (!facet.type.empty()) out_.surfaces.push_back({facet.type, -1, facet.label});
   }
 
   void tie_openings() {
@@ -128,8 +99,8 @@ class Builder {
     }
   }
 
-  void add_installation(const std::string& id, const Members& attributes) {
-    Installation installation{id, attributes, {}, {}};
+  void add_installation(const std::string& id, const SharedLabel& label) {
+    Installation installation{id, label, {}, {}};
     int number = 0;
     for (const auto& [outer, facet] : state_.facets) {
       if (std::ranges::binary_search(facet.installations, id)) {
@@ -151,14 +122,6 @@ class Builder {
 
 }  // namespace
 
-MemberValue as_written(const MemberValue& value) {
-  constexpr double kLargestExact = 9007199254740992;  // 2^53
-  if (!std::holds_alternative<double>(value)) return value;
-  const double number = std::get<double>(value);
-  if (std::abs(number) >= kLargestExact || number != std::floor(number)) return value;
-  return static_cast<std::int64_t>(number);
-}
-
 LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
   LevelState state;
   state.building = labelled.building;
@@ -168,9 +131,7 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
   for (const Vertex& vertex : solid.vertices) places.push_back(place(vertex.point));
   std::vector<std::vector<std::string>> owners(solid.facets.size());
   for (const Installation& installation : labelled.installations) {
-    Members attributes = installation.attributes;
-    std::erase_if(attributes, [](const auto& member) { return member.first == "oriel_geometry"; });
-    state.installations[installation.id] = all_as_written(std::move(attributes));
+    state.installations[installation.id] = installation.label;
     for (const int facet : installation.polygons) owners[at(facet)].push_back(installation.id);
   }
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -183,7 +144,7 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
     std::ranges::sort(facet.holes);
     if (const int surface = labelled.surface_of_polygon[f]; surface >= 0) {
       facet.type = labelled.surfaces[at(surface)].type;
-      facet.members = all_as_written(labelled.surfaces[at(surface)].members);
+      facet.label = labelled.surfaces[at(surface)].label;
     }
     std::ranges::sort(owners[f]);
     facet.installations = std::move(owners[f]);
@@ -218,21 +179,6 @@ Building building_of(const LevelState& state, const Frame& frame) {
     }
   }
   return building;
-}
-
-std::string hash_of(const LevelState& state) {
-  std::string text = state.building + "\n";
-  for (const auto& [outer, facet] : state.facets) {
-    text += text_of(outer) + "|";
-    for (const MicrometreRing& hole : facet.holes) text += text_of(hole) + "|";
-    text += facet.type + "|" + text_of(facet.members);
-    for (const std::string& id : facet.installations) text += "|" + id;
-    text += '\n';
-  }
-  for (const auto& [id, attributes] : state.installations)
-    text += id + "|" + text_of(attributes) + "\n";
-  for (const auto& [name, value] : state.attributes) text += text_of(Members{{name, value}}) + "\n";
-  return sha256(text);
 }
 
 }  // namespace oriel

@@ -32,20 +32,13 @@ class DoubledFacet : public GeometryError {
 LevelState level_state(const LabelledBuilding& labelled, const Placer& place);
 
 /// The building of a state, to be written: facets in the order of the state. Facets with the same
-/// `oriel_id` have one semantic surface, others each their own; the parent of an opening is the
-/// surface other than an opening that it shares most of its edges with, by length. Shells are what
-/// hangs together by edges; one that encloses no volume but is turned inwards is a cavity of the
-/// smallest body around it. Without facets it has no geometry.
+/// FeatureLabel::id have one semantic surface, others each their own; the parent of an opening is
+/// the surface other than an opening that it shares most of its edges with, by length. Shells are
+/// what hangs together by edges; one that encloses no volume but is turned inwards is a cavity of
+/// the smallest body around it. Without facets it has no geometry.
 LabelledBuilding labelled_building(const LevelState& state, const Frame& frame);
 
 /// The state as a building that was read: its facets are the polygons of solids.
 Building building_of(const LevelState& state, const Frame& frame);
-
-/// What does not fit CityJSON's way of writing numbers is brought into it: a whole double is an
-/// integer.
-MemberValue as_written(const MemberValue& value);
-
-/// The SHA-256 of all that belongs to the state.
-std::string hash_of(const LevelState& state);
 
 }  // namespace oriel

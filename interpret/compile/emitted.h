@@ -13,7 +13,7 @@ bool is_label_emitted(const Pack& pack, std::string_view label);
 
 /// What annotate() makes of features of other classes.
 inline constexpr std::string_view kGenericForms =
-    "a protrusion as a generic BuildingInstallation, anything else as oriel_label of its surfaces";
+    "a protrusion as a generic BuildingInstallation, anything else by the label of its surfaces";
 
 /// "the class has no 'emit'; add emit: {chimney: {type: BuildingInstallation}}".
 std::string advice_to_emit(std::string_view label);

@@ -30,13 +30,6 @@ using rules::Role;
 /// Four digits are enough to compare and keep the files short.
 double rounded(double score) { return std::round(score * 1e4) / 1e4; }
 
-/// Ids of groups, joined by ';' as in feature records: members are flat.
-std::string joined(const std::vector<std::string>& ids) {
-  std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "" : ";") + id;
-  return text;
-}
-
 class Annotator {
  public:
   Annotator(const Building& building, const Segmentation& segmentation, const FeatureTable& table,
@@ -79,8 +72,8 @@ class Annotator {
   [[nodiscard]] int surface_around(const Feature& opening) const;
   [[nodiscard]] int nearest_surface(const Box& box, Vec3 normal,
                                     const std::vector<int>& sources) const;
-  [[nodiscard]] Members members_of(int feature) const;
-  [[nodiscard]] Members codes_of(const Emission& emission) const;
+  [[nodiscard]] FeatureLabel label_of(int feature) const;
+  void add_codes(const Emission& emission, FeatureLabel& label) const;
   [[nodiscard]] bool is_host_surface(const Polygon& polygon) const;
 
   const Building& building_;
@@ -220,7 +213,7 @@ int Annotator::surface_naming(int feature, const std::string& type, int opening)
   const auto [entry, is_new] = named_surfaces_.try_emplace({feature, type});
   if (is_new) {
     entry->second = {static_cast<int>(result_.surfaces.size()), opening};
-    result_.surfaces.push_back({type, -1, members_of(feature)});
+    result_.surfaces.push_back({type, -1, label_of(feature)});
   }
   return entry->second.surface;
 }
@@ -251,14 +244,13 @@ void Annotator::add_surfaces() {
       surface = next;
       result_.surfaces.emplace_back().type = verdicts_[row].type;
       if (options_.has_reasons)
-        result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons_[row]));
+        result_.surfaces.back().label = FeatureLabel{.why = std::move(reasons_[row])};
       continue;
     }
     surface = opening_surfaces_[oriel::at(feature)];
     if (surface >= 0) continue;
     surface = opening_surfaces_[oriel::at(feature)] = next;
-    result_.surfaces.push_back(
-        {roles_[oriel::at(feature)].emission->type, -1, members_of(feature)});
+    result_.surfaces.push_back({roles_[oriel::at(feature)].emission->type, -1, label_of(feature)});
   }
 }
 
@@ -309,34 +301,30 @@ void Annotator::add_parents() {
           surface_around(segmentation_.features[oriel::at(named.opening)]);
 }
 
-Members Annotator::members_of(int feature) const {
+FeatureLabel Annotator::label_of(int feature) const {
   const Verdict& verdict = interpretation_.verdicts[oriel::at(feature)];
   const Role& role = roles_[oriel::at(feature)];
-  Members members = {{"oriel_id", table_.id(verdict.feature)},
-                     {"oriel_name", names_[oriel::at(feature)]},
-                     {"oriel_label", role.label}};
-  if (!role.subclass.empty()) members.emplace_back("oriel_subclass", role.subclass);
-  members.emplace_back("oriel_score", rounded(verdict.score));
-  members.emplace_back("oriel_rule", verdict.rule);
-  if (const auto& groups = groups_[oriel::at(feature)]; !groups.empty())
-    members.emplace_back("oriel_groups", joined(groups));
-  if (const auto& parts = parts_[oriel::at(feature)]; !parts.empty())
-    members.emplace_back("oriel_parts", joined(parts));
+  FeatureLabel label{.id = table_.id(verdict.feature),
+                     .name = names_[oriel::at(feature)],
+                     .label = role.label,
+                     .subclass = role.subclass,
+                     .score = rounded(verdict.score),
+                     .rule = verdict.rule,
+                     .groups = groups_[oriel::at(feature)],
+                     .parts = parts_[oriel::at(feature)]};
   if (explainer_)
-    members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
+    label.why = reason(explainer_->explain(verdict.feature));
   else if (options_.has_reasons)
-    members.emplace_back("oriel_why", options_.feature_reasons.at(oriel::at(feature)));
-  return members;
+    label.why = options_.feature_reasons.at(oriel::at(feature));
+  return label;
 }
 
-Members Annotator::codes_of(const Emission& emission) const {
-  Members codes = {{"class", emission.class_code}};
+void Annotator::add_codes(const Emission& emission, FeatureLabel& label) const {
+  label.class_code = emission.class_code;
   const auto code = emission.function.find(options_.codelist);
-  if (code != emission.function.end()) {
-    codes.emplace_back("function", code->second);
-    codes.emplace_back("oriel_codelist", options_.codelist);
-  }
-  return codes;
+  if (code == emission.function.end() || code->second.empty()) return;
+  label.function = code->second;
+  label.codelist = options_.codelist;
 }
 
 void Annotator::add_installations() {
@@ -355,10 +343,10 @@ void Annotator::add_installations() {
     if (polygons[feature].empty()) continue;
     Installation installation;
     installation.id = table_.id(FeatureId{static_cast<int>(feature)});
+    FeatureLabel label = label_of(static_cast<int>(feature));
     if (const Emission* emission = roles_[feature].emission; emission != nullptr)
-      installation.attributes = codes_of(*emission);
-    for (auto& member : members_of(static_cast<int>(feature)))
-      installation.attributes.push_back(std::move(member));
+      add_codes(*emission, label);
+    installation.label = std::move(label);
     std::ranges::sort(polygons[feature]);
     for (const int polygon : polygons[feature])
       installation.surfaces.push_back(result_.surface_of_polygon[oriel::at(polygon)]);

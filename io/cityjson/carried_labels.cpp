@@ -2,11 +2,11 @@
 
 #include "io/cityjson/cityjson_geometry.h"
 #include "io/cityjson/cityjson_source.h"
+#include "io/cityjson/label_members.h"
 #include "io/cityjson/write/geometry_text.h"
 #include "io/json/raw_json.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 #include <unordered_map>
 
@@ -19,30 +19,12 @@ std::string text_of(const RawNode& node, std::string_view key) {
   return value.starts_with('"') ? decoded(value) : "";
 }
 
-double number_of(const RawNode& node, std::string_view key) {
-  const std::string_view value = node.value_of(key);
-  double number = 0;
-  std::from_chars(value.data(), value.data() + value.size(), number);
-  return number;
-}
-
-/// The members that oriel wrote; nothing if there is no oriel_id.
-std::optional<CarriedFeature> feature_of(const RawNode& members) {
-  CarriedFeature feature;
-  feature.id = text_of(members, "oriel_id");
-  if (feature.id.empty()) return std::nullopt;
-  feature.label = text_of(members, "oriel_subclass");
-  if (feature.label.empty()) feature.label = text_of(members, "oriel_label");
-  feature.score = number_of(members, "oriel_score");
-  feature.name = text_of(members, "oriel_name");
-  feature.rule = text_of(members, "oriel_rule");
-  feature.why = text_of(members, "oriel_why");
-  return feature;
-}
-
-/// Joins it to the feature with its id, if there is one already.
+/// Joins it to the feature with its id, if there is one already; without id or polygons it is none.
 void add(CarriedLabels& labels, CarriedFeature feature) {
-  const auto found = std::ranges::find(labels.features, feature.id, &CarriedFeature::id);
+  if (feature.said.id.empty() || feature.polygons.empty()) return;
+  const auto found =
+      std::ranges::find(labels.features, feature.said.id,
+                        [](const CarriedFeature& of) -> const std::string& { return of.said.id; });
   if (found == labels.features.end()) {
     labels.features.push_back(std::move(feature));
     return;
@@ -74,14 +56,14 @@ void read_surfaces(const Shape& shape, CarriedLabels& labels) {
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     if (!RawNode::is_object(surfaces[s])) continue;
     const RawNode surface(surfaces[s]);
-    const CarriedSurface said{text_of(surface, "type"), text_of(surface, "oriel_why")};
-    auto feature = feature_of(surface);
+    CarriedFeature feature{label_of(surface, kSurfaceMembers), {}};
+    const CarriedSurface said{text_of(surface, "type"), feature.said.why};
     for (std::size_t polygon = 0; polygon < numbers.size(); ++polygon) {
       if (numbers[polygon] != static_cast<int>(s)) continue;
       labels.surfaces[first + polygon] = said;
-      if (feature) feature->polygons.push_back(static_cast<int>(first + polygon));
+      feature.polygons.push_back(static_cast<int>(first + polygon));
     }
-    if (feature && !feature->polygons.empty()) add(labels, std::move(*feature));
+    add(labels, std::move(feature));
   }
 }
 
@@ -116,16 +98,15 @@ void CarriedLabelReader::State::read_installation(
   const RawNode installation(object);
   const std::string_view attributes = installation.value_of("attributes");
   if (!RawNode::is_object(attributes)) return;
-  auto feature = feature_of(RawNode(attributes));
-  if (!feature) return;
+  CarriedFeature feature{label_of(RawNode(attributes), kInstallationMembers), {}};
   for (const std::string_view geometry : elements_of(installation.value_of("geometry"))) {
     if (!RawNode::is_object(geometry)) continue;
     for (const std::string_view polygon : shape_of(RawNode(geometry)).text.polygons)
       if (const auto found = polygon_of.find(polygon); found != polygon_of.end())
-        feature->polygons.push_back(found->second);
+        feature.polygons.push_back(found->second);
   }
-  std::ranges::sort(feature->polygons);
-  if (!feature->polygons.empty()) add(labels, std::move(*feature));
+  std::ranges::sort(feature.polygons);
+  add(labels, std::move(feature));
 }
 
 std::optional<CarriedLabels> CarriedLabelReader::labels_of(std::size_t building) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/document.h"
+#include "model/labelled_building.h"
 
 #include <memory>
 #include <optional>
@@ -9,17 +10,9 @@
 
 namespace oriel {
 
-/// A feature as a file says it: a semantic surface or a BuildingInstallation with `oriel_id`.
+/// A feature as a file says it: a semantic surface or a BuildingInstallation with an id.
 struct CarriedFeature {
-  std::string id;
-  /// `oriel_name`, if it is there.
-  std::string name;
-  /// `oriel_subclass`, else `oriel_label`.
-  std::string label;
-  double score = 0;
-  std::string rule;
-  /// `oriel_why`, if it is there.
-  std::string why;
+  FeatureLabel said;
   /// Polygon::source of the building's polygons, ascending.
   std::vector<int> polygons;
 };

@@ -1,5 +1,6 @@
 #include "io/gpkg/gpkg_rows.h"
 
+#include "io/cityjson/label_members.h"
 #include "io/gpkg/gpkg_geometry.h"
 #include "io/gpkg/gpkg_row.h"
 #include "io/objects/city_record.h"
@@ -108,7 +109,7 @@ class RowMaker {
 
   static std::string_view label_of(const GatheredFeature& feature) {
     return feature.members == nullptr ? std::string_view()
-                                      : member_text(*feature.members, "oriel_label");
+                                      : member_text(*feature.members, kLabelMember.name);
   }
 
   void add_surfaces(const CityObject& object, const CityGeometry& geometry) {
@@ -127,7 +128,7 @@ class RowMaker {
           surface.parent < 0 ? GpkgValue()
                              : GpkgValue(std::int64_t{surface.parent} - static_cast<int>(s)),
           GpkgRole::row);
-      put_text(row, "id", member_text(surface.members, "oriel_id"));
+      put_text(row, "id", member_text(surface.members, kIdMember.name));
       put_verdict(row, &surface.members);
       put(row, "area_m2", area_m2(polygons[s]));
       put_rest(row, surface.members);
@@ -135,20 +136,20 @@ class RowMaker {
     }
   }
 
-  static constexpr std::array<std::string_view, 5> kVerdict{"oriel_id", "oriel_label", "oriel_name",
-                                                            "oriel_score", "oriel_rule"};
+  static constexpr std::array kVerdict{kIdMember.name, kLabelMember.name, kNameMember.name,
+                                       kScoreMember.name, kRuleMember.name};
 
   static void put_verdict(GpkgRow& row, const CityMembers* members) {
     const auto value = [&](std::string_view name) {
       const CityValue* found = members == nullptr ? nullptr : member_of(*members, name);
       return found == nullptr ? GpkgValue() : gpkg_value(*found);
     };
-    put(row, "label", value("oriel_label"));
-    put(row, "name", value("oriel_name"));
-    GpkgValue score = value("oriel_score");
+    put(row, "label", value(kLabelMember.name));
+    put(row, "name", value(kNameMember.name));
+    GpkgValue score = value(kScoreMember.name);
     if (const auto* whole = std::get_if<std::int64_t>(&score)) score = static_cast<double>(*whole);
     put(row, "score", std::move(score));
-    put(row, "rule", value("oriel_rule"));
+    put(row, "rule", value(kRuleMember.name));
   }
 
   static void put_rest(GpkgRow& row, const CityMembers& members) {
@@ -189,8 +190,8 @@ class RowMaker {
         for_each_city_polygon(
             *own, [&](const CityPolygon& one) { feature.polygons.push_back(&one.rings); });
         // One that oriel wrote shares polygons with what is known already.
-        const bool is_ours =
-            !installation.attributes.empty() && member_of(installation.attributes, "oriel_label");
+        const bool is_ours = !installation.attributes.empty() &&
+                             member_of(installation.attributes, kLabelMember.name);
         gather_surfaces(*own, feature_for, features, is_ours ? features.size() : 0);
       }
     }
@@ -204,7 +205,7 @@ class RowMaker {
     for_each_city_polygon(geometry, [&](const CityPolygon& polygon) {
       if (polygon.surface < 0) return;
       const CitySurface& surface = geometry.surfaces[at(polygon.surface)];
-      const std::string_view id = member_text(surface.members, "oriel_id");
+      const std::string_view id = member_text(surface.members, kIdMember.name);
       if (id.empty()) return;
       GatheredFeature& feature = feature_for(id);
       if (static_cast<std::size_t>(&feature - features.data()) < first) return;

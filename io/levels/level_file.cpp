@@ -2,6 +2,7 @@
 
 #include "io/cityjson/cityjson_geometry.h"
 #include "io/cityjson/cityjson_source.h"
+#include "io/cityjson/label_members.h"
 #include "io/cityjson/lod_name.h"
 #include "io/cityjson/write/fresh_cityjson.h"
 #include "io/json/text.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <new>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -24,21 +24,6 @@ using nlohmann::ordered_json;
 
 Vec3 vector_of(const ordered_json& node) {
   return {node.at(0).get<double>(), node.at(1).get<double>(), node.at(2).get<double>()};
-}
-
-MemberValue value_of(const ordered_json& node) {
-  if (node.is_boolean()) return node.get<bool>();
-  if (node.is_number_integer()) return node.get<std::int64_t>();
-  if (node.is_number()) return node.get<double>();
-  return node.get<std::string>();
-}
-
-/// The members of an object but some.
-Members members_of(const ordered_json& node, const std::set<std::string>& but) {
-  Members out;
-  for (const auto& [name, value] : node.items())
-    if (!but.contains(name)) out.emplace_back(name, value_of(value));
-  return out;
 }
 
 class LevelReader {
@@ -56,7 +41,7 @@ class LevelReader {
     const ordered_json& object = objects_.at(id);
     if (const auto found = object.find("attributes"); found != object.end())
       for (const auto& [name, value] : found->items())
-        if (is_of_state(name)) state.attributes[name] = value_of(value);
+        if (is_of_state(name)) state.attributes[name] = member_value(value);
     if (state.attributes.contains("oriel_member_of")) return state;
     add_geometry(chosen_geometry(object.at("geometry")), state);
     if (const auto children = object.find("children"); children != object.end())
@@ -131,7 +116,7 @@ class LevelReader {
                          const ordered_json& surface =
                              semantics->at("surfaces").at(value->get<std::size_t>());
                          facet.type = surface.at("type").get<std::string>();
-                         facet.members = members_of(surface, {"type", "parent", "children"});
+                         facet.label = label_of(surface, kSurfaceMembers);
                        }
                        state.facets.emplace(std::move(outer), std::move(facet));
                      });
@@ -143,7 +128,7 @@ class LevelReader {
     if (object == objects_.end() || !object->contains("attributes") ||
         !object->at("attributes").contains("oriel_geometry"))
       return;
-    state.installations[id] = members_of(object->at("attributes"), {"oriel_geometry"});
+    state.installations[id] = label_of(object->at("attributes"), kInstallationMembers);
     for (const ordered_json& polygon : object->at("geometry").at(0).at("boundaries")) {
       const auto facet = state.facets.find(ring_of(polygon.at(0)));
       if (facet == state.facets.end()) throw std::runtime_error("'" + id + "' has its own facets");

@@ -14,24 +14,6 @@ namespace oriel {
 
 namespace {
 
-/// The text of the member `name`, or empty.
-std::string text_of(const Members& members, std::string_view name) {
-  for (const auto& [key, value] : members)
-    if (key == name && std::holds_alternative<std::string>(value))
-      return std::get<std::string>(value);
-  return "";
-}
-
-/// The score among the members, if they have one.
-std::optional<double> score_of(const Members& members) {
-  for (const auto& [key, value] : members)
-    if (key == "oriel_score") {
-      if (const auto* number = std::get_if<double>(&value)) return *number;
-      if (const auto* number = std::get_if<std::int64_t>(&value)) return *number;
-    }
-  return std::nullopt;
-}
-
 /// "WallSurface" as "wall".
 std::string label_of_type(std::string type) {
   constexpr std::string_view kSuffix = "Surface";
@@ -41,16 +23,15 @@ std::string label_of_type(std::string type) {
 }
 
 MeshFeature feature_of(const std::string& building, const SemanticSurface& surface) {
-  const std::string label = text_of(surface.members, "oriel_label");
-  return {building, label.empty() ? label_of_type(surface.type) : label,
-          text_of(surface.members, "oriel_id"), score_of(surface.members),
-          text_of(surface.members, "oriel_rule")};
+  const FeatureLabel& said = *surface.label;
+  return {building, said.label.empty() ? label_of_type(surface.type) : said.label, said.id,
+          said.score, said.rule};
 }
 
 MeshFeature feature_of(const std::string& building, const Installation& installation) {
-  const std::string label = text_of(installation.attributes, "oriel_label");
-  return {building, label.empty() ? "installation" : label, installation.id,
-          score_of(installation.attributes), text_of(installation.attributes, "oriel_rule")};
+  const FeatureLabel& said = *installation.label;
+  return {building, said.label.empty() ? "installation" : said.label, installation.id, said.score,
+          said.rule};
 }
 
 /// The semantic surface of a polygon, or null.

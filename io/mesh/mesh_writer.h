@@ -12,10 +12,10 @@ namespace oriel {
 
 /// Appends the buildings of `document` with their labels, in the input's coordinates:
 /// LabelledBuilding::geometry where it is set, else the polygons that were read. Buildings without
-/// labels come too. A feature is named by its label: `oriel_label` of an installation or a surface,
-/// else the surface's type ("WallSurface" is "wall"), else "unlabelled"; and by `oriel_id` or the
-/// installation's id. Faces without three distinct vertices are left out. A CityJSONSeq is gathered
-/// by calling this for each record.
+/// labels come too. A feature is named by its label: FeatureLabel::label of an installation or a
+/// surface, else the surface's type ("WallSurface" is "wall"), else "unlabelled"; and by
+/// FeatureLabel::id or the installation's id. Faces without three distinct vertices are left out. A
+/// CityJSONSeq is gathered by calling this for each record.
 void append_mesh(MeshSource& mesh, const Document& document,
                  const std::vector<LabelledBuilding>& labelled);
 

@@ -1,5 +1,6 @@
 #include "io/records/operation_log.h"
 
+#include "io/cityjson/label_members.h"
 #include "io/files/input.h"
 #include "io/json/text.h"
 #include "io/records/log_seal.h"
@@ -20,12 +21,14 @@ using nlohmann::ordered_json;
 constexpr double kMicrometres = 1e6;
 
 ordered_json json_of(const MemberValue& value) {
-  return std::visit([](const auto& known) { return ordered_json(known); }, value);
+  return std::visit([](const auto& known) { return ordered_json(known); }, as_written(value));
 }
 
-ordered_json json_of(const Members& members) {
+ordered_json json_of(const SharedLabel& label) {
   ordered_json out = ordered_json::object();
-  for (const auto& [name, value] : members) out[name] = json_of(value);
+  for_each_member(*label, [&](std::string_view name, const auto& value) {
+    out[std::string(name)] = json_of(MemberValue(value));
+  });
   return out;
 }
 
@@ -52,7 +55,7 @@ ordered_json json_of(const std::vector<std::pair<MicrometreRing, LevelFacet>>& f
     one["rings"] = ordered_json::array({json_of(outer)});
     for (const MicrometreRing& hole : facet.holes) one["rings"].push_back(json_of(hole));
     one["type"] = facet.type;
-    if (!facet.members.empty()) one["members"] = json_of(facet.members);
+    if (facet.label != SharedLabel()) one["members"] = json_of(facet.label);
     if (!facet.installations.empty()) one["installations"] = facet.installations;
     out.push_back(std::move(one));
   }
@@ -78,19 +81,6 @@ ordered_json json_of(const Change& change) {
   }
   if (!change.installations.empty()) out["installations"] = json_of_changed(change.installations);
   if (!change.attributes.empty()) out["attributes"] = json_of_changed(change.attributes);
-  return out;
-}
-
-MemberValue member_value(const ordered_json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_number()) return json.get<double>();
-  return json.get<std::string>();
-}
-
-Members read_members(const ordered_json& json) {
-  Members out;
-  for (const auto& [name, value] : json.items()) out.emplace_back(name, member_value(value));
   return out;
 }
 
@@ -124,7 +114,7 @@ std::vector<std::pair<MicrometreRing, LevelFacet>> facets_of(const ordered_json&
     LevelFacet facet;
     facet.holes.assign(rings.begin() + 1, rings.end());
     facet.type = one.at("type").get<std::string>();
-    if (one.contains("members")) facet.members = read_members(one.at("members"));
+    if (one.contains("members")) facet.label = label_of(one.at("members"));
     if (one.contains("installations")) one.at("installations").get_to(facet.installations);
     facets.emplace_back(std::move(rings[0]), std::move(facet));
   }
@@ -147,7 +137,8 @@ Change change_of(const ordered_json& json) {
   if (const auto holes = json.find("holes"); holes != json.end())
     for (const ordered_json& one : *holes)
       change.holes[ring_of(one.at("of"))] = {rings_of(one, "remove"), rings_of(one, "add")};
-  read_changed(json, "installations", change.installations, read_members);
+  read_changed(json, "installations", change.installations,
+               [](const ordered_json& members) { return label_of(members); });
   read_changed(json, "attributes", change.attributes, member_value);
   return change;
 }

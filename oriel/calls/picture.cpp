@@ -62,8 +62,7 @@ bool name_part(const std::vector<int>& polygons, const std::string& id, const st
         named.try_emplace(surface, static_cast<int>(labelled.surfaces.size()));
     if (is_new) {
       const std::string type = surface < 0 ? "" : labelled.surfaces[at(surface)].type;
-      labelled.surfaces.push_back(
-          {.type = type, .members = {{"oriel_label", label}, {"oriel_id", id}}});
+      labelled.surfaces.push_back({.type = type, .label = FeatureLabel{.id = id, .label = label}});
     }
     surface = found->second;
   }

@@ -22,25 +22,18 @@ struct DrawnObject {
   std::vector<int> polygons;  ///< ascending
 };
 
-std::string label_in(const Members& members) {
-  for (const auto& [name, value] : members)
-    if (name == "oriel_label")
-      if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return {};
-}
-
 /// What is written with a label: openings and installations.
 std::vector<DrawnObject> objects_of(const LabelledBuilding& drawn) {
   std::vector<DrawnObject> of_surfaces, objects;
   for (const SemanticSurface& surface : drawn.surfaces)
-    of_surfaces.push_back({label_in(surface.members), {}});
+    of_surfaces.push_back({surface.label->label, {}});
   for (std::size_t i = 0; i < drawn.surface_of_polygon.size(); ++i)
     if (const int surface = drawn.surface_of_polygon[i]; surface >= 0)
       of_surfaces[at(surface)].polygons.push_back(static_cast<int>(i));
   for (DrawnObject& object : of_surfaces)
     if (!object.label.empty() && !object.polygons.empty()) objects.push_back(std::move(object));
   for (const Installation& installation : drawn.installations) {
-    DrawnObject object{label_in(installation.attributes), installation.polygons};
+    DrawnObject object{installation.label->label, installation.polygons};
     std::ranges::sort(object.polygons);
     if (!object.label.empty() && !object.polygons.empty()) objects.push_back(std::move(object));
   }

@@ -36,7 +36,7 @@ void put_parted(PartedSolid parted, LabelledBuilding& labelled) {
   }
   for (Installation& installation : labelled.installations) {
     const Installation old =
-        std::exchange(installation, Installation{installation.id, installation.attributes, {}, {}});
+        std::exchange(installation, Installation{installation.id, installation.label, {}, {}});
     for (std::size_t f = 0; f < parted.whole_of.size(); ++f) {
       const auto found = std::ranges::find(old.polygons, parted.whole_of[f]);
       if (found == old.polygons.end()) continue;

@@ -80,12 +80,11 @@ void add_to_surface(const SurfaceTable& table, std::size_t row, SemanticSurface&
   const auto exposed = table.number(row, SurfaceAttribute::exposed);
   if (!exposed) return;
   const bool is_party = table.number(row, SurfaceAttribute::party_wall).value_or(0) > 0;
-  surface.members.emplace_back("oriel_party_wall", is_party);
-  surface.members.emplace_back("oriel_exposed", to_four_digits(*exposed));
+  FeatureLabel label{.is_party_wall = is_party, .exposed = to_four_digits(*exposed)};
   for (const auto& [attribute, word] : {std::pair(SurfaceAttribute::faces_street, "street"),
                                         std::pair(SurfaceAttribute::faces_yard, "yard")})
-    if (table.number(row, attribute).value_or(0) > 0)
-      surface.members.emplace_back("oriel_faces", std::string(word));
+    if (table.number(row, attribute).value_or(0) > 0) label.faces = word;
+  surface.label = std::move(label);
 }
 
 }  // namespace
@@ -141,7 +140,7 @@ void add_outlook(const Building& building, const PipelineResult& result, Labelle
     if (source < 0 || at(source) >= out.surface_of_polygon.size()) continue;
     const int surface = out.surface_of_polygon[at(source)];
     if (surface >= 0 && out.surfaces[at(surface)].parent < 0 &&
-        out.surfaces[at(surface)].members.empty())
+        out.surfaces[at(surface)].label == SharedLabel())
       add_to_surface(result.surfaces, row, out.surfaces[at(surface)]);
   }
 }

@@ -105,11 +105,12 @@ OpenBuilding opened(const Building& building, const PipelineResult& line) {
   return open;
 }
 
-RecordedFeature said_by_file(const CarriedFeature& said) {
+RecordedFeature said_by_file(const FeatureLabel& said) {
   StudioJson none = StudioJson::array();
+  const std::string& label = said.given();
   return {{{"id", said.id}, {"name", said.name}, {"kind", ""}, {"parent", -1}},
-          {{"sentence", said.label + ": so it is called in the file"},
-           {"label", said.label},
+          {{"sentence", label + ": so it is called in the file"},
+           {"label", label},
            {"rule", said.rule},
            {"why", none},
            {"why_not", none},
@@ -117,9 +118,9 @@ RecordedFeature said_by_file(const CarriedFeature& said) {
            {"relations", none},
            {"attributes", none},
            {"correction", StudioJson()},
-           {"head", fmt::format("{} -> {} {:.2f} by {}, as the file says", said.id, said.label,
-                                said.score, said.rule)}},
-          said.label};
+           {"head", fmt::format("{} -> {} {:.2f} by {}, as the file says", said.id, label,
+                                said.score.value_or(0), said.rule)}},
+          label};
 }
 
 }  // namespace
@@ -213,7 +214,7 @@ void Recording::add_after(const Building& building, const PipelineResult& line,
     for (const CarriedFeature& said : carried->features) {
       for (const int polygon : said.polygons)
         owners.at(static_cast<std::size_t>(polygon)).push_back(static_cast<int>(features.size()));
-      features.push_back(said_by_file(said));
+      features.push_back(said_by_file(said.said));
     }
     for (auto& of_polygon : owners)
       std::ranges::stable_sort(of_polygon, {}, [&](int feature) {

@@ -36,7 +36,7 @@ std::string warning(const std::string& pack, int column, const std::string& feat
                     const std::string& label) {
   return fmt::format(
       "warning: {}:3:{}: R258 {} written without a type, a protrusion as a generic "
-      "BuildingInstallation, anything else as oriel_label of its surfaces: the class has no "
+      "BuildingInstallation, anything else by the label of its surfaces: the class has no "
       "'emit'; add emit: "
       "{{{}: {{type: BuildingInstallation}}}}",
       pack, column, features, label);

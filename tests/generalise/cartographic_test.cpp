@@ -65,9 +65,7 @@ LabelledBuilding relabelled(const Line& line, double scale) {
 std::map<std::string, int> types_of(const LabelledBuilding& labelled, const std::string& label) {
   std::map<std::string, int> counts;
   for (const Installation& installation : labelled.installations) {
-    const auto& members = installation.attributes;
-    const auto its = std::ranges::find(members, "oriel_label", &Members::value_type::first);
-    if (its == members.end() || std::get<std::string>(its->second) != label) continue;
+    if (installation.label->label != label) continue;
     for (const int surface : installation.surfaces)
       ++counts[labelled.surfaces[static_cast<std::size_t>(surface)].type];
   }

@@ -19,18 +19,11 @@ bool is_opening(const SemanticSurface& surface) {
   return surface.type == "Window" || surface.type == "Door";
 }
 
-/// A member's text.
-std::string text_of(const Members& members, const std::string& name) {
-  for (const auto& [key, value] : members)
-    if (key == name) return std::get<std::string>(value);
-  return "";
-}
-
 /// The ids of openings, each with those of its type.
 std::map<std::string, std::string> openings_of(const LabelledBuilding& labelled) {
   std::map<std::string, std::string> openings;
   for (const SemanticSurface& surface : labelled.surfaces)
-    if (is_opening(surface)) openings[text_of(surface.members, "oriel_id")] = surface.type;
+    if (is_opening(surface)) openings[surface.label->id] = surface.type;
   return openings;
 }
 

@@ -24,25 +24,21 @@ Document document_of(const std::string& text) {
 LabelledBuilding labels() {
   LabelledBuilding labelled;
   labelled.building = "house";
-  labelled.surfaces = {{"GroundSurface", -1, {{"oriel_id", std::string("g1")}}},
-                       {"WallSurface", -1, {}},
-                       {"Window",
-                        1,
-                        {{"oriel_label", std::string("window")},
-                         {"oriel_score", 0.75},
-                         {"oriel_count", std::int64_t{3}},
-                         {"oriel_sure", true}}},
-                       {"Door", 1, {}}};
+  labelled.surfaces = {
+      {"GroundSurface", -1, FeatureLabel{.id = "g1"}},
+      {"WallSurface", -1, {}},
+      {"Window", 1,
+       FeatureLabel{.label = "window",
+                    .score = 0.75,
+                    .others = {{"oriel_count", std::int64_t{3}}, {"oriel_sure", true}}}},
+      {"Door", 1, {}}};
   labelled.surface_of_polygon = {0, 2, 1, 1, -1, 1};
   labelled.attributes = {{"oriel_version", std::string("0.1.0")}, {"oriel_scale", 0.1}};
   return labelled;
 }
 
 Installation chimney() {
-  return {"c1",
-          {{"class", std::string("1000")}, {"oriel_label", std::string("chimney")}},
-          {1, 2},
-          {2, 1}};
+  return {"c1", FeatureLabel{.class_code = "1000", .label = "chimney"}, {1, 2}, {2, 1}};
 }
 
 std::string check_valid(const std::string& text) {

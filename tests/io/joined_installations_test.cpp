@@ -163,7 +163,8 @@ TEST_SUITE("io") {
     labelled.attributes = {{"oriel_pack", std::string("p")}};
     labelled.installations = {
         {"c1",
-         {{"oriel_id", std::string("c1")}, {"oriel_label", std::string("chimney")}},
+         FeatureLabel{
+             .id = "c1", .label = "chimney", .subclass = "flue", .score = 0.5, .rule = "r"},
          {1, 6, 7},
          {0, -1, 1}}};
     const std::string out = write_cityjson(*record.value, {labelled});
@@ -176,6 +177,7 @@ TEST_SUITE("io") {
     const auto carried = CarriedLabelReader(*again.value).labels_of(0);
     REQUIRE(carried);
     REQUIRE(carried->features.size() == 1);
+    CHECK(carried->features[0].said == *labelled.installations[0].label);
     CHECK(carried->features[0].polygons == std::vector<int>{1, 6, 7});
     REQUIRE(carried->surfaces.size() == 8);
     CHECK(carried->surfaces[1].type == "RoofSurface");

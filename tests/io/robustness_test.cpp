@@ -19,9 +19,9 @@ void read_and_write(const test::TemporaryFolder& folder, const std::string& name
     for (const Building& building : record.value->buildings) {
       LabelledBuilding& one = labelled.emplace_back();
       one.building = building.id;
-      one.surfaces = {{"WallSurface", -1, {}}, {"Window", 0, {{"oriel_id", std::string("w")}}}};
+      one.surfaces = {{"WallSurface", -1, {}}, {"Window", 0, FeatureLabel{.id = "w"}}};
       one.surface_of_polygon.assign(building.polygons.size(), 1);
-      one.installations = {{"i", {{"class", std::string("1000")}}, {0}, {1}}};
+      one.installations = {{"i", FeatureLabel{.class_code = "1000"}, {0}, {1}}};
     }
     // Of a CityGML building that could not be read nothing is written.
     if (record.value->format == Format::citygml && !record.value->source) continue;

@@ -31,11 +31,11 @@ std::vector<LabelledBuilding> labels_for(const Document& document) {
   for (const Building& building : document.buildings) {
     LabelledBuilding& one = labelled.emplace_back();
     one.building = building.id;
-    one.surfaces = {{"WallSurface", -1, {}}, {"Window", 0, {{"oriel_id", std::string("w1")}}}};
+    one.surfaces = {{"WallSurface", -1, {}}, {"Window", 0, FeatureLabel{.id = "w1"}}};
     one.surface_of_polygon.assign(building.polygons.size(), 0);
     one.surface_of_polygon.back() = 1;
     one.attributes = {{"oriel_version", std::string("0.1.0")}};
-    one.installations = {{building.id + "-i", {{"class", std::string("1000")}}, {0, 1}, {0, 0}}};
+    one.installations = {{building.id + "-i", FeatureLabel{.class_code = "1000"}, {0, 1}, {0, 0}}};
   }
   return labelled;
 }

@@ -175,7 +175,7 @@ TEST_SUITE("oriel") {
     CHECK(to_string(*issue).starts_with(
         "t.yaml:3:11: house: R258 " + std::to_string(openings) +
         " features with the label 'opening' are written without a type, a protrusion "
-        "as a generic BuildingInstallation, anything else as oriel_label of its surfaces: the "
+        "as a generic BuildingInstallation, anything else by the label of its surfaces: the "
         "class has no 'emit'; add emit: {opening: {type: BuildingInstallation}}\n"));
     LabelOptions none;
     none.has_output = false;

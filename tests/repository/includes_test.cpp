@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -174,6 +176,22 @@ TEST_SUITE("repository") {
           if (is_ours(header)) CHECK_MESSAGE(is_downward(file, header), file, " includes ", header);
       }
     CHECK(looked_at > 900);
+  }
+
+  TEST_CASE("io alone knows how a label is spelt in files") {
+    const fs::path sources(ORIEL_SOURCE_DIR);
+    const std::regex spelt(
+        "oriel_label|\"oriel_(id|name|subclass|score|rule|groups|parts|why|codelist|party_wall|"
+        "exposed|faces)\"");
+    std::set<std::string> rooms;
+    for (const auto& [room, below] : kBelow)
+      for (const auto& entry : fs::recursive_directory_iterator(sources / room)) {
+        if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+        std::ifstream file(entry.path());
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        if (std::regex_search(text, spelt)) rooms.insert(room);
+      }
+    CHECK(rooms == std::set<std::string>{"io"});
   }
 
   TEST_CASE("what is detail is included in its own room only") {

@@ -82,7 +82,7 @@ ExitCode gather(const RunOptions& arguments, const RuleBase& rules, Report& repo
       if (lines[i].is_passed_over) continue;
       const auto carried = is_after ? reader.labels_of(i) : std::nullopt;
       if (carried) {
-        for (const CarriedFeature& feature : carried->features) ++counts[feature.label];
+        for (const CarriedFeature& feature : carried->features) ++counts[feature.said.given()];
       } else {
         for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
       }

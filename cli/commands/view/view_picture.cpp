@@ -69,14 +69,14 @@ LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carr
   for (std::size_t i = 0; i < carried.surfaces.size(); ++i) {
     if (carried.surfaces[i].type.empty()) continue;
     made.surface_of_polygon[i] = static_cast<int>(made.surfaces.size());
-    made.surfaces.push_back({.type = carried.surfaces[i].type, .members = {}});
+    made.surfaces.push_back({.type = carried.surfaces[i].type});
   }
   // Surfaces stand first: an opening is none of what it lies in.
   std::vector<bool> is_taken(carried.surfaces.size());
   for (const CarriedFeature& feature : carried.features) {
     const int surface = static_cast<int>(made.surfaces.size());
     made.surfaces.push_back(
-        {.type = {}, .members = {{"oriel_label", feature.label}, {"oriel_id", feature.id}}});
+        {.label = FeatureLabel{.id = feature.said.id, .label = feature.said.given()}});
     for (const int polygon : feature.polygons) {
       const auto i = static_cast<std::size_t>(polygon);
       const std::string& type = carried.surfaces.at(i).type;

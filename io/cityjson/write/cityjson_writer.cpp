@@ -387,13 +387,8 @@ class CityJsonText::State {
       size += polygons.at(static_cast<std::size_t>(polygon)).size() + 1;
     text.reserve(size);
     text += R"({"type":"BuildingInstallation","attributes":{)";
-    for (const auto& [key, value] : installation.attributes) {
-      if (key == "oriel_geometry") continue;
-      append_json_key(text, key);
-      std::visit([&](const auto& known) { append_json(text, known); }, value);
-    }
-    append_json_key(text, "oriel_geometry");
-    append_json(text, std::string_view("shared"));
+    detail::append_label(text, installation.label);
+    append_field(text, "oriel_geometry", std::string_view("shared"));
     text += R"(},"parents":[)";
     append_json(text, std::string_view(labelled.building));
     text += R"(],"geometry":[{"type":"MultiSurface","lod":)";

@@ -1,5 +1,6 @@
 #include "io/cityjson/write/semantics_text.h"
 
+#include "io/cityjson/label_members.h"
 #include "io/json/raw_json.h"
 #include "kernel/base/text/json_text.h"
 
@@ -66,9 +67,6 @@ std::string nested_values(const std::vector<int>& flat, const GeometryShape& sha
   if (shape.depth == 2) text += shape.counts.empty() ? "[]" : "]";
   return text;
 }
-
-/// Why a surface is what it is, in one line.
-constexpr std::string_view kReason = "oriel_why";
 
 /// The semantic surfaces of one geometry while ours are added.
 class Filling {
@@ -155,12 +153,10 @@ class Filling {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (flat_[i] < 0 || !is_surface(wanted[i])) continue;
       const std::string_view there = existing_[index(flat_[i])];
-      if (!RawNode::is_object(there) || RawNode(there).find(kReason)) continue;
-      const Members& members = surfaces_[index(wanted[i])].members;
-      const auto reason = std::ranges::find(members, kReason, &Members::value_type::first);
-      if (reason == members.end()) continue;
+      if (!RawNode::is_object(there) || RawNode(there).find(kWhyMember.name)) continue;
+      const std::string& text = surfaces_[index(wanted[i])].label->why;
+      if (text.empty()) continue;
       auto& reasons = reasons_of_[flat_[i]];
-      const std::string& text = std::get<std::string>(reason->second);
       if (std::ranges::find(reasons, text) == reasons.end()) reasons.push_back(text);
     }
   }
@@ -212,7 +208,7 @@ class Filling {
     if (reasons != reasons_of_.end()) {
       std::string text;
       append_json(text, reason_of_kept(existing_[number], reasons->second));
-      surface.append(kReason, std::move(text));
+      surface.append(kWhyMember.name, std::move(text));
     }
     return surface.text();
   }
@@ -228,7 +224,7 @@ class Filling {
       text += R"(,"children":)";
       append_json_array(text, children->second);
     }
-    append_members(text, surfaces_[s].members);
+    append_label(text, surfaces_[s].label);
     text += '}';
   }
 
@@ -251,11 +247,11 @@ class Filling {
 
 }  // namespace
 
-void append_members(std::string& out, const Members& members) {
-  for (const auto& [key, value] : members) {
-    append_json_key(out, key);
-    std::visit([&](const auto& known) { append_json(out, known); }, value);
-  }
+void append_label(std::string& out, const SharedLabel& label) {
+  for_each_member(*label, [&](std::string_view name, const auto& value) {
+    append_json_key(out, name);
+    append_json(out, value);
+  });
 }
 
 std::vector<int> surface_numbers(std::string_view semantics, const GeometryShape& shape) {

@@ -17,8 +17,8 @@ struct GeometryShape {
   std::vector<std::vector<int>> counts;
 };
 
-/// The members `{"type":…,"parent":…,"children":[…],…}` that are added as `"key":value`.
-void append_members(std::string& out, const Members& members);
+/// Appends what the label says to the object that is being written.
+void append_label(std::string& out, const SharedLabel& label);
 
 /// For each polygon of a geometry the number of its surface in "semantics", or -1.
 std::vector<int> surface_numbers(std::string_view semantics, const GeometryShape& shape);
@@ -27,7 +27,7 @@ std::vector<int> surface_numbers(std::string_view semantics, const GeometryShape
 /// one that `surface_of_polygon` names (-1, or too short: none). `existing` is the text that is
 /// there, or empty. Surfaces that are there keep their numbers and gain `children`; of ours only
 /// those that a polygon takes are added. An opening whose wall is labelled already has that as its
-/// parent, but not if what is there is to be kept. Where ours have the member oriel_why, those that
+/// parent, but not if what is there is to be kept. Where ours say why they are, those that
 /// are there and have none gain one, too: that they were kept, and what ours would have been.
 /// Returns `existing` if there is nothing to add.
 std::string filled_semantics(std::string_view existing, const GeometryShape& shape,

@@ -66,25 +66,18 @@ class RedrawnWriter {
     return found == feature_by_id_.end() ? -1 : found->second;
   }
 
-  [[nodiscard]] int feature_of(const Members& members) const {
-    for (const auto& [name, value] : members)
-      if (const auto* id = std::get_if<std::string>(&value); name == "oriel_id" && id != nullptr)
-        return feature_of(*id);
-    return -1;
-  }
-
   /// By polygon what it is of: surfaces that are features, and installations over them.
   void write_level(const LabelledBuilding& level, StudioJson& answer) {
     const std::size_t count = level.surface_of_polygon.size();
     std::vector<int> features(count, -1), surfaces = level.surface_of_polygon;
     for (std::size_t i = 0; i < count; ++i)
       if (surfaces[i] >= 0)
-        features[i] = feature_of(level.surfaces[static_cast<std::size_t>(surfaces[i])].members);
+        features[i] = feature_of(level.surfaces[static_cast<std::size_t>(surfaces[i])].label->id);
     for (const Installation& installation : level.installations)
       for (std::size_t i = 0; i < installation.polygons.size(); ++i) {
         const auto polygon = static_cast<std::size_t>(installation.polygons[i]);
         if (polygon >= count) continue;
-        features[polygon] = feature_of(installation.attributes);
+        features[polygon] = feature_of(installation.label->id);
         surfaces[polygon] = installation.surfaces[i];
       }
     const auto type_of = [&](std::size_t polygon) {

@@ -11,7 +11,6 @@ void level(std::string_view bytes) {
   for (const Issue& issue : states.issues) (void)to_string(issue);
   if (!states.value) return;
   for (const LevelState& state : *states.value) {
-    (void)hash_of(state);
     (void)labelled_building(state, {});
     (void)building_of(state, {});
   }

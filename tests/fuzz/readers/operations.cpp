@@ -22,7 +22,6 @@ void carry_out(const std::vector<SeriesOperation>& operations) {
   constexpr double kFinest = 0, kCoarsest = 1e9;
   LevelState state;
   if (!move_state(state, operations, kFinest, kCoarsest)) return;
-  (void)hash_of(state);
   (void)labelled_building(state, {});
   (void)move_state(state, operations, kCoarsest, kFinest);
 }

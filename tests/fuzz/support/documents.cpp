@@ -21,9 +21,9 @@ constexpr std::size_t kMostPolygonsRead = 500;
 LabelledBuilding with_labels(const Building& building) {
   LabelledBuilding labelled;
   labelled.building = building.id;
-  labelled.surfaces = {{"WallSurface", -1, {}}, {"Window", 0, {{"oriel_id", std::string("w")}}}};
+  labelled.surfaces = {{"WallSurface", -1, {}}, {"Window", 0, FeatureLabel{.id = "w"}}};
   labelled.surface_of_polygon.assign(building.polygons.size(), 1);
-  labelled.installations = {{"i", {{"class", std::string("1000")}}, {0}, {1}}};
+  labelled.installations = {{"i", FeatureLabel{.class_code = "1000"}, {0}, {1}}};
   return labelled;
 }
 

@@ -19,10 +19,10 @@ LevelState state_of(const LevelFacet& facet) {
 
 TEST_SUITE("generalise") {
   TEST_CASE("what two states differ in turns one into the other") {
-    const LevelFacet wall{{}, "WallSurface", {{"oriel_id", std::string("f1")}}, {}, {}};
+    const LevelFacet wall{{}, "WallSurface", FeatureLabel{.id = "f1"}, {}, {}};
     LevelFacet roof = wall, named = wall, standing = wall, open = wall;
     roof.type = "RoofSurface";
-    named.members = {{"oriel_id", std::string("f2")}};
+    named.label = FeatureLabel{.id = "f2"};
     standing.installations = {"balcony"};
     open.holes = {square(10)};
     const std::vector<LevelFacet> all{wall, roof, named, standing, open};

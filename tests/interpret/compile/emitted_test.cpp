@@ -30,8 +30,8 @@ TEST_SUITE("interpret") {
     CHECK(issues[0].severity == Severity::note);
     CHECK(to_string(issues[0]) ==
           "t.yaml:3:23: R258 a feature with the label 'chimney' is written to files of buildings "
-          "without a type, a protrusion as a generic BuildingInstallation, anything else as "
-          "oriel_label of its surfaces: the class has no 'emit'; add emit: {chimney: {type: "
+          "without a type, a protrusion as a generic BuildingInstallation, anything else by "
+          "the label of its surfaces: the class has no 'emit'; add emit: {chimney: {type: "
           "BuildingInstallation}}\n"
           "classes: {window: {}, chimney: {}}\n"
           "                      ^~~~~~~");

@@ -135,8 +135,8 @@ TEST_SUITE("interpret") {
     CHECK(type_at(labelled, 2) == "WallSurface");
     const SemanticSurface& surface = labelled.surfaces[static_cast<std::size_t>(
         labelled.surface_of_polygon[static_cast<std::size_t>(frame)])];
-    CHECK(text_of(surface.members, "oriel_parts") ==
-          h.scene.table().id(left_sash) + ";" + h.scene.table().id(right_sash));
+    CHECK(surface.label->parts ==
+          std::vector{h.scene.table().id(left_sash), h.scene.table().id(right_sash)});
   }
 
   TEST_CASE("the sill of a sash in an unlabelled frame belongs to the wall") {
@@ -177,14 +177,12 @@ TEST_SUITE("interpret") {
     const SemanticSurface& pane = labelled.surfaces[static_cast<std::size_t>(surface)];
     CHECK(pane.type == "Window");
     CHECK(pane.parent == labelled.surface_of_polygon[3]);
-    CHECK(text_of(pane.members, "oriel_id") == "f0");
-    CHECK(text_of(pane.members, "oriel_name") == "window 1 of the walls and roofs");
-    CHECK(text_of(pane.members, "oriel_label") == "window");
-    CHECK(text_of(pane.members, "oriel_rule") == "some.rule");
-    CHECK(text_of(pane.members, "oriel_subclass").empty());
-    CHECK(std::ranges::any_of(pane.members, [](const auto& member) {
-      return member == std::pair<std::string, MemberValue>("oriel_score", 0.8765);
-    }));
+    CHECK(pane.label->id == "f0");
+    CHECK(pane.label->name == "window 1 of the walls and roofs");
+    CHECK(pane.label->label == "window");
+    CHECK(pane.label->rule == "some.rule");
+    CHECK(pane.label->subclass.empty());
+    CHECK(pane.label->score == 0.8765);
   }
 
   TEST_CASE("what is inside a window without a label is part of it") {
@@ -223,14 +221,14 @@ TEST_SUITE("interpret") {
     CHECK(type_at(labelled, top) == "OuterFloorSurface");
     CHECK(type_at(labelled, front) == "WallSurface");
     CHECK(type_at(labelled, below) == "OuterCeilingSurface");
-    CHECK(text_of(balcony.attributes, "class") == "1000");
-    CHECK(text_of(balcony.attributes, "function") == "1000");
-    CHECK(text_of(balcony.attributes, "oriel_codelist") == "sig3d");
-    CHECK(text_of(balcony.attributes, "oriel_label") == "balcony");
+    CHECK(balcony.label->class_code == "1000");
+    CHECK(balcony.label->function == "1000");
+    CHECK(balcony.label->codelist == "sig3d");
+    CHECK(balcony.label->label == "balcony");
 
     const LabelledBuilding other = h.annotated({.codelist = "none", .attributes = {}});
-    CHECK(text_of(other.installations[0].attributes, "function").empty());
-    CHECK(text_of(other.installations[0].attributes, "oriel_codelist").empty());
+    CHECK(other.installations[0].label->function.empty());
+    CHECK(other.installations[0].label->codelist.empty());
   }
 
   TEST_CASE("a protrusion of a class that is not emitted is an installation without codes") {
@@ -244,10 +242,10 @@ TEST_SUITE("interpret") {
     REQUIRE(labelled.installations.size() == 2);
     const Installation& shelf = labelled.installations[0];
     CHECK(shelf.polygons == std::vector<int>{top, below});
-    CHECK(text_of(shelf.attributes, "oriel_label") == "shelf");
-    CHECK(text_of(shelf.attributes, "oriel_id") == "f0");
-    CHECK(text_of(shelf.attributes, "class").empty());
-    CHECK(text_of(shelf.attributes, "function").empty());
+    CHECK(shelf.label->label == "shelf");
+    CHECK(shelf.label->id == "f0");
+    CHECK(shelf.label->class_code.empty());
+    CHECK(shelf.label->function.empty());
     CHECK(labelled.installations[1].polygons == std::vector<int>{lamp});
     CHECK(type_at(labelled, below) == "OuterCeilingSurface");
   }
@@ -261,16 +259,16 @@ TEST_SUITE("interpret") {
       CHECK(labelled.installations.empty());
       for (const int polygon : niche) {
         const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(polygon)];
-        const Members& members = labelled.surfaces[static_cast<std::size_t>(surface)].members;
+        const SharedLabel& label = labelled.surfaces[static_cast<std::size_t>(surface)].label;
         CHECK(type_at(labelled, polygon) == "WallSurface");
-        CHECK(text_of(members, "oriel_label") == "niche");
-        CHECK(text_of(members, "oriel_id") == "f0");
-        CHECK(text_of(members, "oriel_rule") == "some.rule");
+        CHECK(label->label == "niche");
+        CHECK(label->id == "f0");
+        CHECK(label->rule == "some.rule");
         // One surface for all of them: they are of one type.
         CHECK(surface == labelled.surface_of_polygon[static_cast<std::size_t>(niche[0])]);
       }
       const int wall = labelled.surface_of_polygon[2];
-      CHECK(labelled.surfaces[static_cast<std::size_t>(wall)].members.empty());
+      CHECK(labelled.surfaces[static_cast<std::size_t>(wall)].label == SharedLabel());
     }
   }
 
@@ -287,9 +285,9 @@ TEST_SUITE("interpret") {
           labelled.surface_of_polygon[static_cast<std::size_t>(polygon)])];
     };
     CHECK(surface_at(lamella).type == "Window");
-    CHECK(text_of(surface_at(lamella).members, "oriel_label") == "lamella");
+    CHECK(surface_at(lamella).label->label == "lamella");
     CHECK(surface_at(lamella).parent == surface_at(window[0]).parent);
-    CHECK(text_of(surface_at(window[0]).members, "oriel_label") == "window");
+    CHECK(surface_at(window[0]).label->label == "window");
   }
 
   TEST_CASE("a window of which another feature has all polygons keeps them") {
@@ -300,8 +298,7 @@ TEST_SUITE("interpret") {
     const LabelledBuilding labelled = h.annotated();
     for (const int polygon : window) {
       const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(polygon)];
-      CHECK(text_of(labelled.surfaces[static_cast<std::size_t>(surface)].members, "oriel_label") ==
-            "window");
+      CHECK(labelled.surfaces[static_cast<std::size_t>(surface)].label->label == "window");
     }
   }
 
@@ -318,7 +315,7 @@ TEST_SUITE("interpret") {
     REQUIRE(labelled.installations.size() == 2);
     CHECK(labelled.installations[0].polygons == std::vector<int>{front, roof, pane});
     CHECK(labelled.installations[1].polygons == std::vector<int>{flue});
-    CHECK(text_of(labelled.installations[0].attributes, "function") == "1053");
+    CHECK(labelled.installations[0].label->function == "1053");
     CHECK(type_at(labelled, pane) == "Window");
     CHECK(type_at(labelled, roof) == "RoofSurface");
     const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(pane)];
@@ -371,8 +368,8 @@ TEST_SUITE("interpret") {
     const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(window[0])];
     const SemanticSurface& pane = labelled.surfaces[static_cast<std::size_t>(surface)];
     CHECK(pane.type == "Window");
-    CHECK(text_of(pane.members, "oriel_label") == "window");
-    CHECK(text_of(pane.members, "oriel_subclass") == "roof_window");
+    CHECK(pane.label->label == "window");
+    CHECK(pane.label->subclass == "roof_window");
   }
 
   TEST_CASE("the building says by what it was labelled") {

@@ -32,7 +32,7 @@ TEST_SUITE("interpret") {
     REQUIRE(issues.size() == 2);
     CHECK(to_string(issues[0]) ==
           "t.yaml:3:23: R258 1 feature with the label 'vent' is written without a type, a "
-          "protrusion as a generic BuildingInstallation, anything else as oriel_label of its "
+          "protrusion as a generic BuildingInstallation, anything else by the label of its "
           "surfaces: the class has no 'emit'; add emit: {vent: {type: BuildingInstallation}}\n"
           "classes: {window: {}, vent: {}, chimney: {}, dormer: {}}\n"
           "                      ^~~~");

@@ -54,11 +54,10 @@ std::vector<Vec3> input_points(const Document& document) {
 LabelledBuilding box_labels() {
   LabelledBuilding labelled;
   labelled.building = "house";
-  labelled.surfaces = {
-      {"WallSurface", -1, {}},
-      {"Window", 0, {{"oriel_label", std::string("window")}, {"oriel_id", std::string("w 1")}}}};
+  labelled.surfaces = {{"WallSurface", -1, {}},
+                       {"Window", 0, FeatureLabel{.id = "w 1", .label = "window"}}};
   labelled.surface_of_polygon = {-1, 0, 0, 1, 1, 0};
-  labelled.installations = {{"c1", {{"oriel_label", std::string("chimney")}}, {4, 5}, {1, 0}}};
+  labelled.installations = {{"c1", FeatureLabel{.label = "chimney"}, {4, 5}, {1, 0}}};
   return labelled;
 }
 
