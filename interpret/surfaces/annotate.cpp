@@ -101,11 +101,9 @@ class Annotator {
   std::vector<SurfaceVerdict> own_verdicts_;
   std::span<const SurfaceVerdict> verdicts_;
   std::vector<std::string> reasons_;
-  /// By feature, the surface of every opening that has one, or -1.
-  std::vector<int> opening_surfaces_;
   /// By opening, how many polygons no feature within it takes.
   std::vector<int> own_polygons_;
-  /// The surfaces of features that are named, by feature and type, each with the opening that it
+  /// The surfaces that name a feature, by feature and type, each with the opening that it is or
   /// lies in, or -1.
   struct NamedSurface {
     int surface = -1;
@@ -129,7 +127,6 @@ LabelledBuilding Annotator::run() {
 void Annotator::find_roles() {
   roles_.resize(segmentation_.features.size());
   kinds_.resize(roles_.size(), Kind::nothing);
-  opening_surfaces_.resize(roles_.size(), -1);
   for (const Verdict& verdict : interpretation_.verdicts) {
     if (verdict.label.empty()) continue;
     Role& role = roles_[verdict.feature.index()];
@@ -226,7 +223,6 @@ void Annotator::add_surfaces() {
   result_.surfaces.reserve(building_.polygons.size());
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
-    const auto next = static_cast<int>(result_.surfaces.size());
     polygons_[oriel::at(polygon.source)] = &polygon;
     int& surface = result_.surface_of_polygon[oriel::at(polygon.source)];
     const int feature = find_emitted(polygon);
@@ -234,23 +230,16 @@ void Annotator::add_surfaces() {
     // An opening keeps at least one polygon.
     const int named =
         is_in_opening && own_polygons_[oriel::at(feature)] == 0 ? -1 : find_named(polygon, feature);
-    if (named >= 0) {
-      const std::string& type =
-          is_in_opening ? roles_[oriel::at(feature)].emission->type : verdicts_[row].type;
-      surface = surface_naming(named, type, is_in_opening ? feature : -1);
+    const std::string& type =
+        is_in_opening ? roles_[oriel::at(feature)].emission->type : verdicts_[row].type;
+    if (named >= 0 || is_in_opening) {
+      surface = surface_naming(named >= 0 ? named : feature, type, is_in_opening ? feature : -1);
       continue;
     }
-    if (!is_in_opening) {
-      surface = next;
-      result_.surfaces.emplace_back().type = verdicts_[row].type;
-      if (options_.has_reasons)
-        result_.surfaces.back().label = FeatureLabel{.why = std::move(reasons_[row])};
-      continue;
-    }
-    surface = opening_surfaces_[oriel::at(feature)];
-    if (surface >= 0) continue;
-    surface = opening_surfaces_[oriel::at(feature)] = next;
-    result_.surfaces.push_back({roles_[oriel::at(feature)].emission->type, -1, label_of(feature)});
+    surface = static_cast<int>(result_.surfaces.size());
+    result_.surfaces.emplace_back().type = type;
+    if (options_.has_reasons)
+      result_.surfaces.back().label = FeatureLabel{.why = std::move(reasons_[row])};
   }
 }
 
@@ -292,9 +281,6 @@ int Annotator::nearest_surface(const Box& box, Vec3 normal, const std::vector<in
 }
 
 void Annotator::add_parents() {
-  for (std::size_t feature = 0; feature < opening_surfaces_.size(); ++feature)
-    if (const int surface = opening_surfaces_[feature]; surface >= 0)
-      result_.surfaces[oriel::at(surface)].parent = surface_around(segmentation_.features[feature]);
   for (const auto& [key, named] : named_surfaces_)
     if (named.opening >= 0)
       result_.surfaces[oriel::at(named.surface)].parent =

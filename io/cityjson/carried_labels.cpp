@@ -4,11 +4,8 @@
 #include "io/cityjson/cityjson_source.h"
 #include "io/cityjson/label_members.h"
 #include "io/cityjson/write/geometry_text.h"
-#include "io/json/raw_json.h"
 
 #include <algorithm>
-#include <string_view>
-#include <unordered_map>
 
 namespace oriel {
 
@@ -48,8 +45,8 @@ Shape shape_of(const RawNode& geometry) {
 
 /// Reads the surfaces of the polygons that follow those that `labels` has already.
 void read_surfaces(const Shape& shape, CarriedLabels& labels) {
-  const std::size_t first = labels.surfaces.size();
-  labels.surfaces.resize(first + shape.text.polygons.size());
+  const std::size_t first = labels.types.size();
+  labels.types.resize(first + shape.text.polygons.size());
   if (!RawNode::is_object(shape.semantics)) return;
   const auto surfaces = elements_of(RawNode(shape.semantics).value_of("surfaces"));
   const std::vector<int> numbers = detail::surface_numbers(shape.semantics, shape.text.shape);
@@ -57,10 +54,9 @@ void read_surfaces(const Shape& shape, CarriedLabels& labels) {
     if (!RawNode::is_object(surfaces[s])) continue;
     const RawNode surface(surfaces[s]);
     CarriedFeature feature{label_of(surface, kSurfaceMembers), {}};
-    const CarriedSurface said{text_of(surface, "type"), feature.said.why};
     for (std::size_t polygon = 0; polygon < numbers.size(); ++polygon) {
       if (numbers[polygon] != static_cast<int>(s)) continue;
-      labels.surfaces[first + polygon] = said;
+      labels.types[first + polygon] = text_of(surface, "type");
       feature.polygons.push_back(static_cast<int>(first + polygon));
     }
     add(labels, std::move(feature));
@@ -69,29 +65,15 @@ void read_surfaces(const Shape& shape, CarriedLabels& labels) {
 
 }  // namespace
 
-struct CarriedLabelReader::State {
-  explicit State(const Document& of) : document(of) {
-    if (!document.source) return;
-    const std::string_view text = document.source->text;
-    objects.emplace(RawNode(text.substr(text.find('{'))).value_of("CityObjects"));
-    for (std::size_t i = 0; i < objects->size(); ++i) number_of.try_emplace(objects->key(i), i);
-  }
-
-  void read_installation(std::string_view object,
-                         const std::unordered_map<std::string_view, int>& polygon_of,
-                         CarriedLabels& labels) const;
-
-  const Document& document;
-  std::optional<RawNode> objects;
-  std::unordered_map<std::string, std::size_t> number_of;
-};
-
-CarriedLabelReader::CarriedLabelReader(const Document& document)
-    : state_(std::make_unique<State>(document)) {}
-CarriedLabelReader::~CarriedLabelReader() = default;
+CarriedLabelReader::CarriedLabelReader(const Document& document) : document_(document) {
+  if (!document.source) return;
+  const std::string_view text = document.source->text;
+  objects_.emplace(RawNode(text.substr(text.find('{'))).value_of("CityObjects"));
+  for (std::size_t i = 0; i < objects_->size(); ++i) number_of_.try_emplace(objects_->key(i), i);
+}
 
 /// Its polygons are those of the building with the same corners, in the same order.
-void CarriedLabelReader::State::read_installation(
+void CarriedLabelReader::read_installation(
     std::string_view object, const std::unordered_map<std::string_view, int>& polygon_of,
     CarriedLabels& labels) const {
   if (!RawNode::is_object(object)) return;
@@ -110,31 +92,30 @@ void CarriedLabelReader::State::read_installation(
 }
 
 std::optional<CarriedLabels> CarriedLabelReader::labels_of(std::size_t building) const {
-  if (!state_->objects) return std::nullopt;
-  const GeometryPlace place = state_->document.source->places.at(building);
-  const RawNode object(state_->objects->value(place.object));
+  if (!objects_) return std::nullopt;
+  const GeometryPlace place = document_.source->places.at(building);
+  const RawNode object(objects_->value(place.object));
   const std::string_view attributes = object.value_of("attributes");
   if (!RawNode::is_object(attributes) || !RawNode(attributes).find("oriel_pack"))
     return std::nullopt;
   CarriedLabels labels;
   std::unordered_map<std::string_view, int> polygon_of;
   const auto read_geometry = [&](GeometryPlace of) {
-    const auto geometries =
-        elements_of(RawNode(state_->objects->value(of.object)).value_of("geometry"));
+    const auto geometries = elements_of(RawNode(objects_->value(of.object)).value_of("geometry"));
     const Shape shape = shape_of(RawNode(geometries.at(of.geometry)));
-    auto number = static_cast<int>(labels.surfaces.size());
+    auto number = static_cast<int>(labels.types.size());
     for (const std::string_view polygon : shape.text.polygons)
       polygon_of.try_emplace(polygon, number++);
     read_surfaces(shape, labels);
   };
   read_geometry(place);
-  if (const auto& joined = state_->document.source->joined; building < joined.size())
+  if (const auto& joined = document_.source->joined; building < joined.size())
     for (const GeometryPlace of : joined[building]) read_geometry(of);
   for (const std::string_view child : elements_of(object.value_of("children"))) {
     if (!child.starts_with('"')) continue;
-    const auto found = state_->number_of.find(decoded(child));
-    if (found != state_->number_of.end())
-      state_->read_installation(state_->objects->value(found->second), polygon_of, labels);
+    const auto found = number_of_.find(decoded(child));
+    if (found != number_of_.end())
+      read_installation(objects_->value(found->second), polygon_of, labels);
   }
   return labels;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "io/document.h"
+#include "io/json/raw_json.h"
 #include "model/labelled_building.h"
 
-#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace oriel {
@@ -17,18 +19,12 @@ struct CarriedFeature {
   std::vector<int> polygons;
 };
 
-struct CarriedSurface {
-  /// The semantic surface type, empty where there is none.
-  std::string type;
-  std::string why;
-};
-
 /// What a labelled or generalised building says of itself (docs/formats.md).
 struct CarriedLabels {
   /// In the order of the file, surfaces first; those of one id are one feature.
   std::vector<CarriedFeature> features;
-  /// By Polygon::source.
-  std::vector<CarriedSurface> surfaces;
+  /// The semantic surface types by Polygon::source, empty where there is none.
+  std::vector<std::string> types;
 };
 
 /// Reads the labels that oriel wrote into a CityJSON file or a line of a CityJSONSeq.
@@ -36,9 +32,6 @@ class CarriedLabelReader {
  public:
   /// `document` must outlive the reader.
   explicit CarriedLabelReader(const Document& document);
-  ~CarriedLabelReader();
-  CarriedLabelReader(const CarriedLabelReader&) = delete;
-  CarriedLabelReader& operator=(const CarriedLabelReader&) = delete;
 
   /// Of the building with that number in the document; nothing if it has no `oriel_pack`: then
   /// oriel did not write it. Installations that share the building's polygons (`oriel_geometry`)
@@ -46,8 +39,13 @@ class CarriedLabelReader {
   [[nodiscard]] std::optional<CarriedLabels> labels_of(std::size_t building) const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  void read_installation(std::string_view object,
+                         const std::unordered_map<std::string_view, int>& polygon_of,
+                         CarriedLabels& labels) const;
+
+  const Document& document_;
+  std::optional<RawNode> objects_;
+  std::unordered_map<std::string, std::size_t> number_of_;
 };
 
 }  // namespace oriel

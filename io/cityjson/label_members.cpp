@@ -1,5 +1,7 @@
 #include "io/cityjson/label_members.h"
 
+#include "io/records/record_text.h"
+
 #include <algorithm>
 #include <charconv>
 
@@ -14,25 +16,18 @@ bool take(std::string& said, const MemberValue& value) {
   return !said.empty();
 }
 
-bool take(std::optional<double>& said, const MemberValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) said = *number;
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) said = static_cast<double>(*whole);
-  return said.has_value();
-}
-
-bool take(std::optional<bool>& said, const MemberValue& value) {
-  if (const auto* truth = std::get_if<bool>(&value)) said = *truth;
+template <class Value>
+bool take(std::optional<Value>& said, const MemberValue& value) {
+  if (const auto* known = std::get_if<Value>(&value)) said = *known;
+  if constexpr (std::is_same_v<Value, double>)
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) said = static_cast<double>(*whole);
   return said.has_value();
 }
 
 bool take(std::vector<std::string>& said, const MemberValue& value) {
-  const auto* text = std::get_if<std::string>(&value);
-  if (text == nullptr || text->empty()) return false;
-  for (std::size_t start = 0, end = 0; end != std::string::npos; start = end + 1) {
-    end = text->find(';', start);
-    said.push_back(text->substr(start, end - start));
-  }
-  return true;
+  if (const auto* text = std::get_if<std::string>(&value))
+    detail::for_each_part(*text, [&](std::string_view id) { said.emplace_back(id); });
+  return !said.empty();
 }
 
 /// The other way round: what a member of a file says.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/ranges.h>
 #include <nlohmann/json_fwd.hpp>
 
 namespace oriel {
@@ -23,29 +24,27 @@ struct LabelMember {
       of;
 };
 
-inline constexpr LabelMember kIdMember{"oriel_id", &FeatureLabel::id},
-    kNameMember{"oriel_name", &FeatureLabel::name},
-    kLabelMember{"oriel_label", &FeatureLabel::label},
-    kScoreMember{"oriel_score", &FeatureLabel::score},
-    kRuleMember{"oriel_rule", &FeatureLabel::rule}, kWhyMember{"oriel_why", &FeatureLabel::why};
+inline constexpr std::string_view kIdMember = "oriel_id", kNameMember = "oriel_name",
+                                  kLabelMember = "oriel_label", kScoreMember = "oriel_score",
+                                  kRuleMember = "oriel_rule", kWhyMember = "oriel_why";
 
 /// All, in the order in which they are written.
-inline constexpr std::array kLabelMembers{
-    LabelMember{"class", &FeatureLabel::class_code},
-    LabelMember{"function", &FeatureLabel::function},
-    LabelMember{"oriel_codelist", &FeatureLabel::codelist},
-    kIdMember,
-    kNameMember,
-    kLabelMember,
-    LabelMember{"oriel_subclass", &FeatureLabel::subclass},
-    kScoreMember,
-    kRuleMember,
-    LabelMember{"oriel_groups", &FeatureLabel::groups},
-    LabelMember{"oriel_parts", &FeatureLabel::parts},
-    kWhyMember,
-    LabelMember{"oriel_party_wall", &FeatureLabel::is_party_wall},
-    LabelMember{"oriel_exposed", &FeatureLabel::exposed},
-    LabelMember{"oriel_faces", &FeatureLabel::faces}};
+inline constexpr std::array<LabelMember, 15> kLabelMembers{
+    {{"class", &FeatureLabel::class_code},
+     {"function", &FeatureLabel::function},
+     {"oriel_codelist", &FeatureLabel::codelist},
+     {kIdMember, &FeatureLabel::id},
+     {kNameMember, &FeatureLabel::name},
+     {kLabelMember, &FeatureLabel::label},
+     {"oriel_subclass", &FeatureLabel::subclass},
+     {kScoreMember, &FeatureLabel::score},
+     {kRuleMember, &FeatureLabel::rule},
+     {"oriel_groups", &FeatureLabel::groups},
+     {"oriel_parts", &FeatureLabel::parts},
+     {kWhyMember, &FeatureLabel::why},
+     {"oriel_party_wall", &FeatureLabel::is_party_wall},
+     {"oriel_exposed", &FeatureLabel::exposed},
+     {"oriel_faces", &FeatureLabel::faces}}};
 
 /// Calls visit(name, value) with each member that a label has: first those that a file had besides.
 template <class Visit>
@@ -55,9 +54,7 @@ void for_each_member(const FeatureLabel& label, const Visit& visit) {
   const auto visit_said = [&](std::string_view name, const auto& said) {
     using Said = std::decay_t<decltype(said)>;
     if constexpr (std::is_same_v<Said, std::vector<std::string>>) {
-      std::string ids;
-      for (const std::string& id : said) ids += (ids.empty() ? "" : ";") + id;
-      if (!ids.empty()) visit(name, ids);
+      if (!said.empty()) visit(name, fmt::format("{}", fmt::join(said, ";")));
     } else if constexpr (std::is_same_v<Said, std::string>) {
       if (!said.empty()) visit(name, said);
     } else if (said) {

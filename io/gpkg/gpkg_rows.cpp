@@ -109,7 +109,7 @@ class RowMaker {
 
   static std::string_view label_of(const GatheredFeature& feature) {
     return feature.members == nullptr ? std::string_view()
-                                      : member_text(*feature.members, kLabelMember.name);
+                                      : member_text(*feature.members, kLabelMember);
   }
 
   void add_surfaces(const CityObject& object, const CityGeometry& geometry) {
@@ -128,7 +128,7 @@ class RowMaker {
           surface.parent < 0 ? GpkgValue()
                              : GpkgValue(std::int64_t{surface.parent} - static_cast<int>(s)),
           GpkgRole::row);
-      put_text(row, "id", member_text(surface.members, kIdMember.name));
+      put_text(row, "id", member_text(surface.members, kIdMember));
       put_verdict(row, &surface.members);
       put(row, "area_m2", area_m2(polygons[s]));
       put_rest(row, surface.members);
@@ -136,20 +136,20 @@ class RowMaker {
     }
   }
 
-  static constexpr std::array kVerdict{kIdMember.name, kLabelMember.name, kNameMember.name,
-                                       kScoreMember.name, kRuleMember.name};
+  static constexpr std::array kVerdict{kIdMember, kLabelMember, kNameMember, kScoreMember,
+                                       kRuleMember};
 
   static void put_verdict(GpkgRow& row, const CityMembers* members) {
     const auto value = [&](std::string_view name) {
       const CityValue* found = members == nullptr ? nullptr : member_of(*members, name);
       return found == nullptr ? GpkgValue() : gpkg_value(*found);
     };
-    put(row, "label", value(kLabelMember.name));
-    put(row, "name", value(kNameMember.name));
-    GpkgValue score = value(kScoreMember.name);
+    put(row, "label", value(kLabelMember));
+    put(row, "name", value(kNameMember));
+    GpkgValue score = value(kScoreMember);
     if (const auto* whole = std::get_if<std::int64_t>(&score)) score = static_cast<double>(*whole);
     put(row, "score", std::move(score));
-    put(row, "rule", value(kRuleMember.name));
+    put(row, "rule", value(kRuleMember));
   }
 
   static void put_rest(GpkgRow& row, const CityMembers& members) {
@@ -190,8 +190,8 @@ class RowMaker {
         for_each_city_polygon(
             *own, [&](const CityPolygon& one) { feature.polygons.push_back(&one.rings); });
         // One that oriel wrote shares polygons with what is known already.
-        const bool is_ours = !installation.attributes.empty() &&
-                             member_of(installation.attributes, kLabelMember.name);
+        const bool is_ours =
+            !installation.attributes.empty() && member_of(installation.attributes, kLabelMember);
         gather_surfaces(*own, feature_for, features, is_ours ? features.size() : 0);
       }
     }
@@ -205,7 +205,7 @@ class RowMaker {
     for_each_city_polygon(geometry, [&](const CityPolygon& polygon) {
       if (polygon.surface < 0) return;
       const CitySurface& surface = geometry.surfaces[at(polygon.surface)];
-      const std::string_view id = member_text(surface.members, kIdMember.name);
+      const std::string_view id = member_text(surface.members, kIdMember);
       if (id.empty()) return;
       GatheredFeature& feature = feature_for(id);
       if (static_cast<std::size_t>(&feature - features.data()) < first) return;
@@ -252,17 +252,9 @@ class RowMaker {
     }
   }
 
-  struct PairHash {
-    std::size_t operator()(const std::pair<std::string, std::string>& pair) const noexcept {
-      const std::hash<std::string> hash;
-      return hash(pair.first) * 31 + hash(pair.second);
-    }
-  };
-
   const CityRecord& record_;
   std::unordered_map<std::string_view, std::size_t> number_of_;
-  std::unordered_map<std::pair<std::string, std::string>, const FeatureRecord*, PairHash>
-      feature_of_;
+  std::map<std::pair<std::string, std::string>, const FeatureRecord*> feature_of_;
   std::string rows_;
 };
 

@@ -22,16 +22,9 @@ std::string label_of_type(std::string type) {
   return type;
 }
 
-MeshFeature feature_of(const std::string& building, const SemanticSurface& surface) {
-  const FeatureLabel& said = *surface.label;
-  return {building, said.label.empty() ? label_of_type(surface.type) : said.label, said.id,
-          said.score, said.rule};
-}
-
-MeshFeature feature_of(const std::string& building, const Installation& installation) {
-  const FeatureLabel& said = *installation.label;
-  return {building, said.label.empty() ? "installation" : said.label, installation.id, said.score,
-          said.rule};
+MeshFeature feature_of(const std::string& building, const std::string& id, const FeatureLabel& said,
+                       const std::string& otherwise) {
+  return {building, said.label.empty() ? otherwise : said.label, id, said.score, said.rule};
 }
 
 /// The semantic surface of a polygon, or null.
@@ -51,13 +44,17 @@ std::vector<MeshFeature> features_of(const LabelledBuilding& labelled, std::size
   std::vector<MeshFeature> features(count, {labelled.building, "unlabelled", ""});
   const auto surface = [&](std::size_t polygon) { return surface_of(labelled, polygon); };
   for (std::size_t i = 0; i < count; ++i)
-    if (surface(i) != nullptr) features[i] = feature_of(labelled.building, *surface(i));
+    if (surface(i) != nullptr)
+      features[i] = feature_of(labelled.building, surface(i)->label->id, *surface(i)->label,
+                               label_of_type(surface(i)->type));
   for (const Installation& installation : labelled.installations)
     for (const int polygon : installation.polygons) {
       const auto i = static_cast<std::size_t>(polygon);
       const bool is_opening =
           surface(i) != nullptr && (surface(i)->type == "Window" || surface(i)->type == "Door");
-      if (!is_opening) features.at(i) = feature_of(labelled.building, installation);
+      if (!is_opening)
+        features.at(i) =
+            feature_of(labelled.building, installation.id, *installation.label, "installation");
     }
   return features;
 }

@@ -221,7 +221,7 @@ void Recording::add_after(const Building& building, const PipelineResult& line,
         return carried->features[static_cast<std::size_t>(feature)].polygons.size();
       });
     for (const Polygon& polygon : building.polygons)
-      types.push_back(carried->surfaces.at(static_cast<std::size_t>(polygon.source)).type);
+      types.push_back(carried->types.at(static_cast<std::size_t>(polygon.source)));
   } else {
     features = state_->features_of(open);
     for (std::size_t i = 0; i < owners.size(); ++i)

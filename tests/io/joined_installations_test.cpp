@@ -179,9 +179,9 @@ TEST_SUITE("io") {
     REQUIRE(carried->features.size() == 1);
     CHECK(carried->features[0].said == *labelled.installations[0].label);
     CHECK(carried->features[0].polygons == std::vector<int>{1, 6, 7});
-    REQUIRE(carried->surfaces.size() == 8);
-    CHECK(carried->surfaces[1].type == "RoofSurface");
-    CHECK(carried->surfaces[7].type == "WallSurface");
+    REQUIRE(carried->types.size() == 8);
+    CHECK(carried->types[1] == "RoofSurface");
+    CHECK(carried->types[7] == "WallSurface");
   }
 
   TEST_CASE("installations of CityGML are joined as those of CityJSON are") {

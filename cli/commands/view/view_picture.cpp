@@ -65,21 +65,21 @@ double side_deg(const std::string& text) {
 LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carried) {
   LabelledBuilding made;
   made.building = building.id;
-  made.surface_of_polygon.assign(carried.surfaces.size(), -1);
-  for (std::size_t i = 0; i < carried.surfaces.size(); ++i) {
-    if (carried.surfaces[i].type.empty()) continue;
+  made.surface_of_polygon.assign(carried.types.size(), -1);
+  for (std::size_t i = 0; i < carried.types.size(); ++i) {
+    if (carried.types[i].empty()) continue;
     made.surface_of_polygon[i] = static_cast<int>(made.surfaces.size());
-    made.surfaces.push_back({.type = carried.surfaces[i].type});
+    made.surfaces.push_back({.type = carried.types[i]});
   }
   // Surfaces stand first: an opening is none of what it lies in.
-  std::vector<bool> is_taken(carried.surfaces.size());
+  std::vector<bool> is_taken(carried.types.size());
   for (const CarriedFeature& feature : carried.features) {
     const int surface = static_cast<int>(made.surfaces.size());
     made.surfaces.push_back(
         {.label = FeatureLabel{.id = feature.said.id, .label = feature.said.given()}});
     for (const int polygon : feature.polygons) {
       const auto i = static_cast<std::size_t>(polygon);
-      const std::string& type = carried.surfaces.at(i).type;
+      const std::string& type = carried.types.at(i);
       if (is_taken[i] && (type == "Window" || type == "Door")) continue;
       made.surface_of_polygon[i] = surface;
       is_taken[i] = true;

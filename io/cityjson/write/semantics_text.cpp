@@ -153,7 +153,7 @@ class Filling {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (flat_[i] < 0 || !is_surface(wanted[i])) continue;
       const std::string_view there = existing_[index(flat_[i])];
-      if (!RawNode::is_object(there) || RawNode(there).find(kWhyMember.name)) continue;
+      if (!RawNode::is_object(there) || RawNode(there).find(kWhyMember)) continue;
       const std::string& text = surfaces_[index(wanted[i])].label->why;
       if (text.empty()) continue;
       auto& reasons = reasons_of_[flat_[i]];
@@ -208,7 +208,7 @@ class Filling {
     if (reasons != reasons_of_.end()) {
       std::string text;
       append_json(text, reason_of_kept(existing_[number], reasons->second));
-      surface.append(kWhyMember.name, std::move(text));
+      surface.append(kWhyMember, std::move(text));
     }
     return surface.text();
   }
