@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/ranges.h>
+
 namespace oriel {
 
 namespace {
@@ -66,21 +68,14 @@ Vec3 normal_of(double inclination_deg, double azimuth_deg) {
 /// As many digits as a person reads of a share.
 double to_four_digits(double share) { return std::round(share * 1e4) / 1e4; }
 
-std::string joined_ids(const std::vector<BuildingContact>& contacts) {
-  std::string text;
-  for (const BuildingContact& contact : contacts) {
-    if (!text.empty()) text += ';';
-    text += contact.building;
-  }
-  return text;
-}
-
 /// The polygon's surface gets what the table of surfaces has of it.
 void add_to_surface(const SurfaceTable& table, std::size_t row, SemanticSurface& surface) {
   const auto exposed = table.number(row, SurfaceAttribute::exposed);
   if (!exposed) return;
   const bool is_party = table.number(row, SurfaceAttribute::party_wall).value_or(0) > 0;
-  FeatureLabel label{.is_party_wall = is_party, .exposed = to_four_digits(*exposed)};
+  FeatureLabel label = *surface.label;
+  label.is_party_wall = is_party;
+  label.exposed = to_four_digits(*exposed);
   for (const auto& [attribute, word] : {std::pair(SurfaceAttribute::faces_street, "street"),
                                         std::pair(SurfaceAttribute::faces_yard, "yard")})
     if (table.number(row, attribute).value_or(0) > 0) label.faces = word;
@@ -130,9 +125,12 @@ void describe_outlook_of_surfaces(const Building& building, std::span<const int>
 void add_outlook(const Building& building, const PipelineResult& result, LabelledBuilding& out) {
   if (!result.surroundings) return;
   double contact_m2 = 0;
-  for (const BuildingContact& contact : result.surroundings->contacts)
+  std::vector<std::string> ids;
+  for (const BuildingContact& contact : result.surroundings->contacts) {
     contact_m2 += contact.area_m2;
-  out.attributes.emplace_back("oriel_neighbours", joined_ids(result.surroundings->contacts));
+    ids.push_back(contact.building);
+  }
+  out.attributes.emplace_back("oriel_neighbours", fmt::format("{}", fmt::join(ids, ";")));
   out.attributes.emplace_back("oriel_party_walls_m2", std::round(100 * contact_m2) / 100);
   if (result.surfaces.rows() != building.polygons.size()) return;
   for (std::size_t row = 0; row < building.polygons.size(); ++row) {
@@ -140,7 +138,7 @@ void add_outlook(const Building& building, const PipelineResult& result, Labelle
     if (source < 0 || at(source) >= out.surface_of_polygon.size()) continue;
     const int surface = out.surface_of_polygon[at(source)];
     if (surface >= 0 && out.surfaces[at(surface)].parent < 0 &&
-        out.surfaces[at(surface)].label == SharedLabel())
+        out.surfaces[at(surface)].label->id.empty())
       add_to_surface(result.surfaces, row, out.surfaces[at(surface)]);
   }
 }

@@ -68,6 +68,23 @@ TEST_SUITE("cli") {
     CHECK(plain.out.find("oriel_party_wall") == std::string::npos);
   }
 
+  TEST_CASE("walls with a reason say what lies before them too") {
+    const Folder folder;
+    const std::string city = folder.write("in.city.json", boxes({{"a"}, {"b", 10}}).dump());
+    REQUIRE(
+        run({"label", city, "--neighbours", "--explain", "-o", folder / "out.city.json"}).exit <=
+        3);
+    const json out = output_of(folder);
+    int walls = 0;
+    for (const json& surface : out["CityObjects"]["a"]["geometry"][0]["semantics"]["surfaces"])
+      if (surface["type"] == "WallSurface") {
+        ++walls;
+        CHECK(surface.contains("oriel_why"));
+        CHECK(surface.contains("oriel_party_wall"));
+      }
+    CHECK(walls == 4);
+  }
+
   TEST_CASE("neighbours are found whatever the shards and threads and orders") {
     const Folder folder;
     const std::string whole = town(folder, 20);
