@@ -69,8 +69,8 @@ void RecordWorker::work_on(WorkItem& item) const {
     else
       guarded([&] { maker->add(i, std::move(result)); });
     if (producer_ != nullptr && !producer_->needs_polygons()) {
-      buildings[i].polygons = {};
-      buildings[i].vertices = {};
+      buildings[i].polygons = std::vector<Polygon>();
+      buildings[i].vertices = std::vector<Vec3>();
     }
   }
   now_at_building(kNoBuilding);

@@ -353,7 +353,7 @@ std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const
 void CityJsonReader::State::forget() {
   root_parser = {};
   object_parser = {};
-  objects = {};
+  objects = std::vector<TextRange>();
 }
 
 /// Puts the CityObject of that number into `object`.

@@ -165,7 +165,7 @@ void FileVertices::mark_used(std::string_view object) {
 }
 
 void FileVertices::renumber() {
-  slots_ = {};
+  slots_ = std::vector<int>();
   new_number_.assign(is_used_.size(), -1);
   int next = 0;
   for (std::size_t i = 0; i < is_used_.size(); ++i)
