@@ -2,7 +2,10 @@
 #include "tests/io/cityjson_samples.h"
 #include "tests/io/files.h"
 
+#include <string>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 namespace oriel {
 namespace {
@@ -189,6 +192,41 @@ TEST_SUITE("io") {
     text.replace(text.find("house"), 5, R"(Caf\u00e9 \"1\")");
     const auto record = read_text(text);
     CHECK(record.value->buildings.at(0).id == "Café \"1\"");
+  }
+
+  TEST_CASE("an object that is no JSON refuses the file with its place") {
+    const std::string objects = R"("CityObjects":{)";
+    for (const char* broken :
+         {R"({"type":"Building"}5)", "", R"({"type":})", R"({"type":"Road"])", "[{}", "tru", "{}{}",
+          R"({"boundaries":[[[1}]})", R"("Road)", R"({"type":"Ro\ad"})"}) {
+      CAPTURE(broken);
+      std::string text = BoxFile().text();
+      const std::size_t at = text.find(objects) + objects.size();
+      text.insert(at, fmt::format(R"("broken":{},)", broken));
+      const auto record = read_text(text);
+      CHECK_FALSE(record.value);
+      REQUIRE(record.issues.size() == 1);
+      CHECK((record.issues[0].code == Code::E104 || record.issues[0].code == Code::E105));
+      CHECK(record.issues[0].place.line > 0);
+    }
+  }
+
+  TEST_CASE("a member that is no CityObject costs itself") {
+    const std::string objects = R"("CityObjects":{)";
+    for (const char* member : {"5", "null", R"("text")", "[]", "[{}]", R"({"type":4})"}) {
+      CAPTURE(member);
+      std::string text = BoxFile().text();
+      text.insert(text.find(objects) + objects.size(), fmt::format(R"("odd":{},)", member));
+      for (const char* key : {R"("CityObjects")", R"("CityObj\u0065cts")"}) {
+        text.replace(text.find(R"("CityObj)"),
+                     text.find(':', text.find(R"("CityObj)")) - text.find(R"("CityObj)"), key);
+        const auto record = read_text(text);
+        REQUIRE(record.value);
+        CHECK(record.value->buildings.size() == 1);
+        REQUIRE(record.issues.size() == 1);
+        CHECK(record.issues[0].place.building == "odd");
+      }
+    }
   }
 }
 
