@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/cityjson/material_colours.h"
 #include "io/document.h"
 #include "io/tiles/tile_building.h"
 #include "io/tiles/tileset_writer.h"

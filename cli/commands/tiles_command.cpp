@@ -9,7 +9,6 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/option_values.h"
 #include "cli/tiles/tiles_page.h"
-#include "io/cityjson/material_colours.h"
 #include "io/files/output_file.h"
 #include "io/files/partial_files.h"
 #include "kernel/base/text/counted.h"
