@@ -103,8 +103,7 @@ class Redrawer {
 
   /// A wall or roof no longer names a feature that was removed from it.
   void forget_gone(SemanticSurface& surface) const {
-    if (surface.type == "Window" || surface.type == "Door") return;
-    if (gone_.contains(surface.label->id)) surface.label = {};
+    if (!is_opening_type(surface.type) && gone_.contains(surface.label->id)) surface.label = {};
   }
 
   /// Surfaces are copied once; polygons of others that went into the same facet have that facet's

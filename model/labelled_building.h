@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -48,7 +49,7 @@ struct FeatureLabel {
 class SharedLabel {
  public:
   SharedLabel() = default;
-  SharedLabel(FeatureLabel label)  // NOLINT(google-explicit-constructor): it is one
+  SharedLabel(FeatureLabel label)
       : label_(std::make_shared<const FeatureLabel>(std::move(label))) {}
 
   const FeatureLabel& operator*() const {
@@ -63,6 +64,9 @@ class SharedLabel {
  private:
   std::shared_ptr<const FeatureLabel> label_;
 };
+
+/// True for the semantic surfaces that lie in others.
+inline bool is_opening_type(std::string_view type) { return type == "Window" || type == "Door"; }
 
 /// A semantic surface to be written: one per feature that is an opening (pane and reveals
 /// together), one per wall, roof or ground polygon.

@@ -24,8 +24,6 @@ MicrometreRing ring_of(const Loop& loop, const std::vector<MicrometrePoint>& pla
   return ring;
 }
 
-bool is_opening(const std::string& type) { return type == "Window" || type == "Door"; }
-
 /// Makes the building of a state.
 class Builder {
  public:
@@ -84,8 +82,8 @@ class Builder {
     for (const auto& [edge, surface] : surface_at) {
       const auto other = surface_at.find({edge.second, edge.first});
       if (other == surface_at.end() || surface < 0 || other->second < 0) continue;
-      if (!is_opening(out_.surfaces[at(surface)].type) ||
-          is_opening(out_.surfaces[at(other->second)].type))
+      if (!is_opening_type(out_.surfaces[at(surface)].type) ||
+          is_opening_type(out_.surfaces[at(other->second)].type))
         continue;
       contact_m[{surface, other->second}] +=
           length(solid_.vertices[at(edge.first)].point - solid_.vertices[at(edge.second)].point);

@@ -18,8 +18,6 @@ namespace oriel {
 
 namespace {
 
-bool is_opening(const std::string& type) { return type == "Window" || type == "Door"; }
-
 /// What we call a polygon that they call `theirs`: "" if nothing.
 std::string our_type(const LabelledBuilding& labelled, int polygon, const std::string& theirs,
                      OpeningPolicy policy) {
@@ -28,7 +26,7 @@ std::string our_type(const LabelledBuilding& labelled, int polygon, const std::s
   const int number = labelled.surface_of_polygon[source];
   if (number < 0) return "";
   const SemanticSurface& surface = labelled.surfaces[static_cast<std::size_t>(number)];
-  if (!is_opening(surface.type) || surface.parent < 0) return surface.type;
+  if (!is_opening_type(surface.type) || surface.parent < 0) return surface.type;
   const std::string& around = labelled.surfaces[static_cast<std::size_t>(surface.parent)].type;
   return policy == OpeningPolicy::as_host || around == theirs ? around : surface.type;
 }
@@ -73,7 +71,7 @@ void compare_surfaces(const Building& building, const LabelledBuilding& labelled
       score.unnamed_m2 += area_m2;
       continue;
     }
-    if (policy == OpeningPolicy::as_host && is_opening(polygon.hint)) {
+    if (policy == OpeningPolicy::as_host && is_opening_type(polygon.hint)) {
       score.openings_m2 += area_m2;
       continue;
     }

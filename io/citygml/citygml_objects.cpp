@@ -1,5 +1,7 @@
 #include "io/citygml/citygml_objects.h"
 
+#include "model/labelled_building.h"
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -191,8 +193,7 @@ bool ObjectReader::read_surface(const XmlNode& node, int parent, CityGmlObject& 
   }
   const std::string_view type = surface.type;
   object.surfaces.push_back(std::move(surface));
-  const bool is_filling_type = type == "Window" || type == "Door";
-  return read_surfaces(node, is_filling_type ? type : "", index, object);
+  return read_surfaces(node, is_opening_type(type) ? type : "", index, object);
 }
 
 /// Reads the geometries that the object itself states.

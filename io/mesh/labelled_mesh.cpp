@@ -50,9 +50,7 @@ std::vector<MeshFeature> features_of(const LabelledBuilding& labelled, std::size
   for (const Installation& installation : labelled.installations)
     for (const int polygon : installation.polygons) {
       const auto i = static_cast<std::size_t>(polygon);
-      const bool is_opening =
-          surface(i) != nullptr && (surface(i)->type == "Window" || surface(i)->type == "Door");
-      if (!is_opening)
+      if (surface(i) == nullptr || !is_opening_type(surface(i)->type))
         features.at(i) =
             feature_of(labelled.building, installation.id, *installation.label, "installation");
     }

@@ -137,7 +137,7 @@ MeshSource marked_only(const PicturePanel& panel) {
 std::string drawn_caption(const std::string& target, const MeshSource& mesh) {
   std::set<int> openings;
   for (const MeshPolygon& polygon : mesh.polygons)
-    if (polygon.surface == "Window" || polygon.surface == "Door") openings.insert(polygon.feature);
+    if (is_opening_type(polygon.surface)) openings.insert(polygon.feature);
   return fmt::format("{}: {}", target, counted(openings.size(), "opening"));
 }
 

@@ -79,8 +79,7 @@ LabelledBuilding labelled_as(const Building& building, const CarriedLabels& carr
         {.label = FeatureLabel{.id = feature.said.id, .label = feature.said.given()}});
     for (const int polygon : feature.polygons) {
       const auto i = static_cast<std::size_t>(polygon);
-      const std::string& type = carried.types.at(i);
-      if (is_taken[i] && (type == "Window" || type == "Door")) continue;
+      if (is_taken.at(i) && is_opening_type(carried.types[i])) continue;
       made.surface_of_polygon[i] = surface;
       is_taken[i] = true;
     }

@@ -8,6 +8,7 @@
 #include "kernel/base/index.h"
 #include "kernel/base/text/json_text.h"
 #include "kernel/base/text/xml.h"
+#include "model/labelled_building.h"
 
 #include <algorithm>
 #include <map>
@@ -354,7 +355,7 @@ class GmlWriter {
     std::map<int, std::vector<int>> openings;  // by the surface that they lie in, -1: none
     for (std::size_t s = 0; s < geometry.surfaces.size(); ++s) {
       const auto& [type, parent, members] = geometry.surfaces[s];
-      if (!is_opening(type) || polygons[s].empty()) continue;
+      if (!is_opening_type(type) || polygons[s].empty()) continue;
       const bool has_parent = parent >= 0 && is_boundary(geometry.surfaces[at(parent)].type) &&
                               (is_two() || geometry.surfaces[at(parent)].type != "ClosureSurface");
       openings[has_parent ? parent : -1].push_back(static_cast<int>(s));
@@ -374,7 +375,7 @@ class GmlWriter {
     const bool is_closure = type == "ClosureSurface";
     std::string name = is_two() ? "bldg:" : is_closure ? "core:" : "con:";
     name += type;
-    if (!is_two() && is_opening(type)) name += "Surface";
+    if (!is_two() && is_opening_type(type)) name += "Surface";
     return name;
   }
 

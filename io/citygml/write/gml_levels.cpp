@@ -1,6 +1,7 @@
 #include "io/citygml/write/gml_levels.h"
 
 #include "kernel/base/index.h"
+#include "model/labelled_building.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ char level_of(const CityGeometry& geometry) {
 
 bool has_openings(const CityGeometry* geometry) {
   return geometry != nullptr && std::ranges::any_of(geometry->surfaces, [](const CitySurface& one) {
-           return is_opening(one.type);
+           return is_opening_type(one.type);
          });
 }
 
@@ -31,8 +32,6 @@ bool is_boundary(std::string_view type) {
                                                    "OuterCeilingSurface", "OuterFloorSurface"};
   return std::ranges::find(kTypes, type) != kTypes.end();
 }
-
-bool is_opening(std::string_view type) { return type == "Window" || type == "Door"; }
 
 GmlRecordLevels::GmlRecordLevels(const CityRecord& record, GmlVersion version)
     : version_(version), levels_(record.objects.size()) {
@@ -94,8 +93,8 @@ std::vector<int> GmlRecordLevels::surfaces_of(const CityGeometry& geometry, char
   for (const CitySurface& surface : geometry.surfaces) {
     const auto number = static_cast<int>(written.size());
     int in = is_boundary(surface.type) ? number : -1;
-    if (is_opening(surface.type) && has_fillings) in = number;
-    if (is_opening(surface.type) && !has_fillings && surface.parent >= 0 &&
+    if (is_opening_type(surface.type) && has_fillings) in = number;
+    if (is_opening_type(surface.type) && !has_fillings && surface.parent >= 0 &&
         is_boundary(geometry.surfaces[at(surface.parent)].type))
       in = surface.parent;
     written.push_back(has_surfaces ? in : -1);

@@ -17,9 +17,8 @@ struct GmlLevel {
 };
 using GmlLevels = std::map<char, GmlLevel>;
 
-/// True for a surface type that CityGML has as a boundary surface, and for Window and Door.
+/// True for a surface type that CityGML has as a boundary surface.
 bool is_boundary(std::string_view type);
-bool is_opening(std::string_view type);
 
 /// Where each object of a record has its geometries, as citygml_text() says.
 class GmlRecordLevels {

@@ -143,9 +143,7 @@ class Filling {
 
   [[nodiscard]] bool is_opening(int number) const {
     const std::string_view text = existing_[index(number)];
-    const std::string type =
-        RawNode::is_object(text) ? decoded(RawNode(text).value_of("type")) : "";
-    return type == "Window" || type == "Door";
+    return RawNode::is_object(text) && is_opening_type(decoded(RawNode(text).value_of("type")));
   }
 
   /// What is there stays, and says what the rules would have said of its polygons.
