@@ -52,6 +52,19 @@ class TargetDrawer : public DrawingLadder {
   }
 
  private:
+  /// Judge as long as somebody waits.
+  class WaitedForJudge : public WrittenJudge {
+   public:
+    WaitedForJudge(TargetDrawer& drawer, OutputCheck& check, const Solid& own, bool is_parted,
+                   Work& work)
+        : WrittenJudge(check, own, is_parted, work), drawer_(drawer) {}
+
+   private:
+    bool is_given_up() override { return drawer_.is_given_up(Stage::generalise); }
+
+    TargetDrawer& drawer_;
+  };
+
   void draw_levels(Drawn& drawn) override;
   void check(Drawn& drawn) override;
   /// Asks whoever waits, until nobody does.
@@ -83,8 +96,7 @@ bool keep(const std::vector<Issue>& issues, Drawn& drawn) {
 
 void TargetDrawer::draw_levels(Drawn& drawn) {
   const PipelineResult& result = *drawn.source->result;
-  WrittenJudge judge(*check_, *result.solid, drawn.source->is_parted, drawn.source->work,
-                     [this] { return is_given_up(Stage::generalise); });
+  WaitedForJudge judge(*this, *check_, *result.solid, drawn.source->is_parted, drawn.source->work);
   RedrawContext context = context_of(drawn, &judge);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
   for (std::size_t i = 0; i < count && !is_given_up(Stage::generalise); ++i) {

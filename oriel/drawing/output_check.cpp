@@ -150,7 +150,7 @@ void OutputCheck::part(LabelledBuilding& labelled) {
 }
 
 Fitness WrittenJudge::fitness_of(const Solid& solid) {
-  if (is_given_up_ && is_given_up_()) work_ = Work(-1);
+  if (is_given_up()) work_ = Work(-1);
   work_.add(kStepsPerJudging * corners_of(solid));
   if (work_.is_used_up()) return Fitness::unfit;
   if (is_parted_ ? check_.made_valid(solid).has_value() : check_.findings(solid).empty())

@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -77,22 +76,20 @@ Issue invalid_before(const Building& building, const std::string& why);
 /// mended, and so will be what is written.
 class WrittenJudge : public SolidJudge {
  public:
-  WrittenJudge(OutputCheck& check, const Solid& own, bool is_parted, Work& work,
-               std::function<bool()> is_given_up = {})
-      : check_(check),
-        own_(own),
-        is_parted_(is_parted),
-        work_(work),
-        is_given_up_(std::move(is_given_up)) {}
+  WrittenJudge(OutputCheck& check, const Solid& own, bool is_parted, Work& work)
+      : check_(check), own_(own), is_parted_(is_parted), work_(work) {}
 
   Fitness fitness_of(const Solid& solid) override;
+
+ protected:
+  /// Says whether nobody waits for it any longer.
+  virtual bool is_given_up() { return false; }
 
  private:
   OutputCheck& check_;
   const Solid& own_;
   bool is_parted_;
   Work& work_;
-  std::function<bool()> is_given_up_;
 };
 
 /// What drawing a building for its targets may take: the budget of a stage and half of it, as steps
