@@ -72,9 +72,11 @@ class RecordText {
   /// done by finish().
   [[nodiscard]] bool is_file() const;
   void finish() { text_.finish(); }
-  void write(const std::function<void(std::string_view)>& sink) { text_.write(sink); }
+  void write(const std::function<void(std::string_view)>& sink);
 
  private:
+  void note_written(std::size_t bytes) const;
+
   Format format_;
   const Document& document_;
   CityJsonText text_;

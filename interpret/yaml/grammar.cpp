@@ -9,14 +9,12 @@ namespace oriel::rules {
 
 namespace {
 
-using json = nlohmann::ordered_json;  // keys stay in their order
-
 using KeysOfMaps = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 /// Adds the maps of `node`, which is called `name`, and of all that is in it.
-void add_maps(const json& node, const std::string& name, KeysOfMaps& all) {
+void add_maps(const nlohmann::ordered_json& node, const std::string& name, KeysOfMaps& all) {
   if (node.is_array())
-    for (const json& one : node) add_maps(one, name, all);
+    for (const auto& one : node) add_maps(one, name, all);
   if (!node.is_object()) return;
   for (const auto& [keyword, value] : node.items()) {
     const bool has_names = keyword == "properties" || keyword == "definitions";
@@ -33,8 +31,10 @@ void add_maps(const json& node, const std::string& name, KeysOfMaps& all) {
 
 }  // namespace
 
-Grammar::Grammar(std::string schema) : schema_(std::move(schema)) {
-  add_maps(json::parse(schema_), "", keys_);
+Grammar::Grammar(std::string schema)
+    : schema_(std::move(schema)),
+      tree_(std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json::parse(schema_))) {
+  add_maps(*tree_, "", keys_);
   for (const auto& [map, keys] : keys_) all_keys_.insert(keys.begin(), keys.end());
 }
 

@@ -2,10 +2,13 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 namespace oriel::rules {
 
@@ -17,6 +20,8 @@ class Grammar {
   explicit Grammar(std::string schema);
 
   [[nodiscard]] const std::string& schema() const { return schema_; }
+  /// The same, parsed; keys stay in their order.
+  [[nodiscard]] const nlohmann::ordered_json& tree() const { return *tree_; }
   /// The keys with a fixed name of a map, in the order of the schema; a map is called as its
   /// definition is, or as the key that it is the value of, and the whole text "". Throws
   /// std::out_of_range for one that the schema does not have.
@@ -26,6 +31,7 @@ class Grammar {
 
  private:
   std::string schema_;
+  std::shared_ptr<const nlohmann::ordered_json> tree_;
   std::map<std::string, std::vector<std::string>, std::less<>> keys_;
   std::set<std::string, std::less<>> all_keys_;
 };

@@ -123,12 +123,24 @@ void RecordText::add(const LabelledBuilding& building) {
 std::string RecordText::text(std::vector<Issue>& issues) {
   if (is_mesh(format_)) return {};
   std::string text = text_.text();
-  log("oriel").debug("written: record={} buildings={} bytes={}", document_.name, buildings_,
-                     text.size());
+  note_written(text.size());
   if (is_written_citygml(format_))
     return citygml_text(text, document_, format_, output.options.closes_installations, issues);
   if (format_ == Format::gpkg) return gpkg_rows(text, document_, output.features);
   return text;
+}
+
+void RecordText::write(const std::function<void(std::string_view)>& sink) {
+  std::size_t bytes = 0;
+  text_.write([&](std::string_view piece) {
+    bytes += piece.size();
+    sink(piece);
+  });
+  note_written(bytes);
+}
+
+void RecordText::note_written(std::size_t bytes) const {
+  log("oriel").debug("written: record={} buildings={} bytes={}", document_.name, buildings_, bytes);
 }
 
 bool RecordText::is_file() const {

@@ -1,8 +1,6 @@
 #include "studio/editing/completion/schema_keys.h"
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -12,16 +10,6 @@ namespace oriel::rules {
 namespace {
 
 using json = nlohmann::ordered_json;  // keys stay in their order
-
-/// The grammar's schema, read once.
-const json& schema_of(const Grammar& grammar) {
-  static std::mutex mutex;
-  static std::map<const Grammar*, json> read;
-  const std::lock_guard lock(mutex);
-  const auto [entry, is_new] = read.try_emplace(&grammar);
-  if (is_new) entry->second = json::parse(grammar.schema());
-  return entry->second;
-}
 
 /// The node and all that it stands for by `$ref` and `anyOf`.
 void add_alternatives(const json& schema, const json& node, std::vector<const json*>& all) {
@@ -80,7 +68,7 @@ bool is_listed(const json& node, const char* list, const std::string& name) {
 }  // namespace
 
 std::vector<SchemaWord> schema_keys(const Grammar& grammar, const YamlPath& path) {
-  const json& schema = schema_of(grammar);
+  const json& schema = grammar.tree();
   std::vector<SchemaWord> keys;
   bool is_first = true;  // of several forms the first is the usual one
   for (const json* node : nodes_at(schema, path)) {
@@ -99,7 +87,7 @@ std::vector<SchemaWord> schema_values(const Grammar& grammar, const YamlPath& pa
   const auto add = [&](const json& value) {
     add_word(values, {value.is_string() ? value.get<std::string>() : value.dump(), ""});
   };
-  for (const json* node : nodes_at(schema_of(grammar), path)) {
+  for (const json* node : nodes_at(grammar.tree(), path)) {
     if (const auto list = node->find("enum"); list != node->end())
       std::ranges::for_each(*list, add);
     if (const auto one = node->find("const"); one != node->end()) add(*one);
@@ -112,7 +100,7 @@ std::vector<SchemaWord> schema_values(const Grammar& grammar, const YamlPath& pa
 }
 
 std::string schema_meaning(const Grammar& grammar, const YamlPath& path) {
-  for (const json* node : nodes_at(schema_of(grammar), path))
+  for (const json* node : nodes_at(grammar.tree(), path))
     if (const auto text = node->find("description"); text != node->end())
       return text->get<std::string>();
   return "";
