@@ -2,8 +2,8 @@
 
 #include "io/cityjson/cityjson_geometry.h"
 #include "io/cityjson/cityjson_source.h"
-#include "io/cityjson/label_members.h"
 #include "io/cityjson/write/geometry_text.h"
+#include "io/objects/label_members.h"
 
 #include <algorithm>
 

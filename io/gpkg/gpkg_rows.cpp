@@ -1,9 +1,9 @@
 #include "io/gpkg/gpkg_rows.h"
 
-#include "io/cityjson/label_members.h"
 #include "io/gpkg/gpkg_geometry.h"
 #include "io/gpkg/gpkg_row.h"
 #include "io/objects/city_record.h"
+#include "io/objects/label_members.h"
 #include "kernel/base/index.h"
 #include "model/description/attributes.h"
 

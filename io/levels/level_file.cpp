@@ -2,11 +2,11 @@
 
 #include "io/cityjson/cityjson_geometry.h"
 #include "io/cityjson/cityjson_source.h"
-#include "io/cityjson/label_members.h"
 #include "io/cityjson/lod_name.h"
 #include "io/cityjson/write/fresh_cityjson.h"
 #include "io/json/text.h"
 #include "io/levels/written_grid.h"
+#include "io/objects/label_members.h"
 
 #include <algorithm>
 #include <new>

@@ -1,8 +1,8 @@
 #include "io/records/operation_log.h"
 
-#include "io/cityjson/label_members.h"
 #include "io/files/input.h"
 #include "io/json/text.h"
+#include "io/objects/label_members.h"
 #include "io/records/log_seal.h"
 
 #include <cmath>

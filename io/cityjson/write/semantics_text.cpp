@@ -1,7 +1,7 @@
 #include "io/cityjson/write/semantics_text.h"
 
-#include "io/cityjson/label_members.h"
 #include "io/json/raw_json.h"
+#include "io/objects/label_members.h"
 #include "kernel/base/text/json_text.h"
 
 #include <algorithm>

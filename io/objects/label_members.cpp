@@ -1,4 +1,4 @@
-#include "io/cityjson/label_members.h"
+#include "io/objects/label_members.h"
 
 #include "io/records/record_text.h"
 

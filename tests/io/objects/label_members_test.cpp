@@ -1,4 +1,4 @@
-#include "io/cityjson/label_members.h"
+#include "io/objects/label_members.h"
 
 #include "kernel/base/text/json_text.h"
 
